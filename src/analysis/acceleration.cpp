@@ -12,6 +12,8 @@
 #include "analysis/augmented_system.h"
 #include "analysis/initial.h"
 #include "analysis/undetermined_reactions.h"
+#include "mechanics/vanishing_source.h"
+#include "system/sources.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
@@ -141,6 +143,12 @@ enum class Start : std::uint8_t { undefined_held, reactions_held };
 // Linear equations are solved by one step, but for roundings.
 enum class Steps : std::uint8_t { one_if_linear, until_settled };
 
+void take_rounding(const System& system, const Eigen::VectorXd& of_multipliers, OperatingPoint& op) {
+  for_each_source<VanishingSource>(system, [&](const ElementSet&, const VanishingSource& source) {
+    source.take_rounding(system.motion(op), {of_multipliers.data(), op.lambda.size()}, op.memory);
+  });
+}
+
 tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquations& equations, OperatingPoint op,
                                         Start start, Steps steps) {
   const AugmentedSystem& augmented = equations.augmented();
@@ -152,6 +160,8 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   bool undefined = false;
   int held = 0, halved = 0;
   StepLength length(equations.values(op));
+  // A solution tells what rounding makes of reactions; sizes that are no more are zero in the one after it.
+  bool rounding_is_known = !has_source<VanishingSource>(system);
   const auto stated_limit = op.initial_conditions.acceleration_iteration_limit;
   const std::int64_t most = stated_limit.value_or(acceleration_iterations);
   for (std::int64_t iteration = 0; iteration < most; ++iteration) {
@@ -208,13 +218,19 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
       found.terms = equations.terms(found.factored, op);
       Eigen::VectorXd rounding = rounding_of_solution(found.lu, found.terms), size = equations.values(op).cwiseAbs();
       equations.spread_over_axes(rounding);
-      const bool settled = length.settled(step.col(0), rounding, size, [&] {
+      const auto rounding_of_point = [&] {
         return rounding_of_accelerations(system, found.lu, op, [&](const OperatingPoint& at) -> Eigen::VectorXd {
           return equations.evaluate(at, {});
         });
-      });
+      };
+      const bool settled = length.settled(step.col(0), rounding, size, rounding_of_point);
       history.push_back(fmt::format("iteration {}: longest step {:.3e} times its rounding", iteration, length.last()));
-      if (settled) {
+      if (settled && !rounding_is_known && iteration + 1 < most) {
+        constexpr double margin = 4;  // what lost_digits looks at beside the solution is zero as well
+        const auto rows = static_cast<Eigen::Index>(op.lambda.size());
+        take_rounding(system, margin * rounding.cwiseMax(rounding_of_point()).segment(augmented.lambda(0), rows), op);
+        rounding_is_known = true;
+      } else if (settled) {
         equations.move(op, step.col(0));
         found.op = std::move(op);
         found.settled = true;
@@ -236,9 +252,11 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
   if (stated_limit) history.insert(history.begin(), fmt::format("IC allows {} iterations (AMAXIT)", most));
   equations.evaluate(op, {});
   const std::string name = farthest_equation(system.layout(), equations.equations());
-  return failure("the equations for accelerations, reactions and algebraic values did not converge" +
-                     (name.empty() ? "" : "; farthest from being met is the equation of " + name),
-                 "unsolved-equations", history);
+  return failure(
+      "the equations for accelerations, reactions and algebraic values did not converge, and there may be "
+      "none that meet all equations" +
+          (name.empty() ? "" : "; farthest from being met is the equation of " + name),
+      "unsolved-equations", history);
 }
 
 Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps steps, Findings& findings) {
@@ -250,6 +268,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
   for (const std::int32_t r : findings.redundant_rows) op.lambda[static_cast<std::size_t>(r)] = 0.0;
   const std::vector<double> first_values = op.algebraic;
   const std::vector<double> first_velocity = op.velocity;
+  take_rounding(system, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(op.lambda.size())), op);
 
   auto solution = iterate(system, equations, op, Start::undefined_held, steps);
   if (!solution) {

@@ -2,6 +2,10 @@
 // together with zero in their place. What comes of an entry e at (r, c) in the linear model is then −y_r e a_c, with
 // a_c the variation of its unknown and y_r what is passed on by its equation: an entry without one or the other does
 // not count, any other is refused by the name of its element.
+//
+// So is the size of a vector that is zero, which has no partials of the vector: an entry in the equations that take the
+// size in counts where the vector varies. That is its variation as a whole, beyond what rounding leaves of the terms
+// that it is added up of all through the equations: a vector that symmetry keeps zero is a sum of what cancels.
 #pragma once
 
 #include <optional>
@@ -9,6 +13,7 @@
 
 #include "analysis/augmented_system.h"
 #include "linear/perturbation.h"
+#include "mechanics/vanishing_source.h"
 
 namespace dynalin {
 
@@ -28,7 +33,9 @@ class UndefinedPartials {
 
  private:
   using Entry = Equations::Undefined;
-  Failure named(const std::vector<Entry>&) const;
+  // Of the sizes that are zero, whether their vectors vary.
+  std::vector<bool> vary(const PerturbationEquations&, const Eigen::MatrixXd& a) const;
+  std::optional<Failure> named(const std::vector<Entry>&, const std::vector<const VanishingSize*>&) const;
 
   const System& system_;
   const Motion& motion_;
@@ -36,6 +43,7 @@ class UndefinedPartials {
   std::vector<std::int32_t> outputs_;
   bool without_damping_;
   std::vector<Entry> entries_;
+  std::vector<VanishingSize> sizes_;
 };
 
 }  // namespace dynalin

@@ -19,4 +19,11 @@ void for_each_source(const System& system, const Use& use) {
   }
 }
 
+template <class Source>
+bool has_source(const System& system) {
+  bool any = false;
+  for_each_source<Source>(system, [&](const ElementSet&, const Source&) { any = true; });
+  return any;
+}
+
 }  // namespace dynalin

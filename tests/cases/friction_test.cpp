@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "cases/run.h"
+#include "places/symmetric_friction.h"
 
 namespace dynalin::cases::friction_test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using namespace symmetric;
 
 class FrictionCases : public Cases {};
 
@@ -321,6 +324,77 @@ TEST_F(FrictionCases, that_has_come_to_rest_has_one_linear_model) {
       for (std::size_t e = 0; e < found.size(); ++e)
         EXPECT_LE(std::abs(found[e] - expected[e]), 1e-3 * frequency) << row.load << " " << k;
     }
+  }
+}
+
+// By forces and moments that symmetry keeps at zero: what forces that cancel leave of them is rounding, and neither it
+// nor where the model stands matters.
+class SymmetricFriction : public FrictionCases {
+ protected:
+  void expect_same_linear_model(const std::string& a, const std::string& b, const std::string& states = "") {
+    const std::string command = "LINEAR/EIGENSOL" + states + "\n";
+    const RunResult one = run(a, command), other = run(b, command);
+    ASSERT_EQ(one.status, 0) << one.err << a;
+    ASSERT_EQ(other.status, 0) << other.err << b;
+    EXPECT_THAT(one.err, Not(HasSubstr("lost-digits")));
+    const auto x = one.eigenvalues(0), y = other.eigenvalues(0);
+    ASSERT_EQ(x.size(), y.size());
+    double largest = 0;
+    for (const auto& v : y) largest = std::max(largest, std::abs(v));
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LT(std::abs(x[k] - y[k]), 1e-9 * largest) << a;
+  }
+};
+
+TEST_F(SymmetricFriction, has_the_linear_model_of_what_stands_in_the_middle_wherever_it_stands) {
+  for (const Placed& place : placements) {
+    for (const auto& model : {slider, hinge}) {
+      expect_same_linear_model(model(place, 0.3, ""), model(place, 0, ""));
+      expect_same_linear_model(model(place, 0.3, ""), model(placements[0], 0, ""));
+    }
+    // In motion the choice of states is a part of the model.
+    const std::string states = "PSTATE/1, VARIABLE=1,2\nVARIABLE/1, FUNCTION=AZ(31,4)\nVARIABLE/2, FUNCTION=DZ";
+    for (const double beside : {0.0, 0.3}) {
+      expect_same_linear_model(sleeve(place, beside, states + "(31,4,4)\n"),
+                               sleeve(placements[0], 0, states + "(31,4,4)\n"), ", PSTATE=1");
+      expect_same_linear_model(slider_on_arm(place, beside, states + "(51,34,34)\n"),
+                               slider_on_arm(placements[0], 0, states + "(51,34,34)\n"), ", PSTATE=1");
+    }
+    expect_same_linear_model(ball(place, ""), ball(place, "INPUTS=PRELOAD"));
+    expect_same_linear_model(cross(place, 0.3), cross(place, 0));
+  }
+}
+
+TEST_F(SymmetricFriction, starts_rests_and_moves) {
+  for (const Placed& place : placements) {
+    for (const std::string& text :
+         {slider(place, 0.3, ""), hinge(place, 0.3, ""), sleeve(place, 0.3, ""), ball(place, ""), cross(place, 0.3)}) {
+      const RunResult r = run(text, "SIMULATE/INITIAL\nSIMULATE/DYNAMIC, END=0.02, STEPS=2\nSIMULATE/STATICS\n");
+      EXPECT_EQ(r.status, 0) << r.err << text;
+    }
+  }
+}
+
+TEST_F(SymmetricFriction, that_a_motion_disturbs_has_no_derivative_and_is_named) {
+  for (const Placed& place : placements) {
+    const RunResult r = run(slider(place, 0.3, moment_along(0)), "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 2) << slider(place, 0.3, moment_along(0));
+    EXPECT_THAT(r.err, HasSubstr("FRICTION/2: a force or moment that JOINT/2 bears across its surfaces is zero while "
+                                 "they slip, and friction by its size has no derivative there"));
+    EXPECT_EQ(run(slider(place, 0.3, moment_along(0)), "SIMULATE/INITIAL\n").status, 0);
+  }
+}
+
+// Little is not nothing: it has the slope of its sign.
+TEST_F(SymmetricFriction, of_a_small_moment_that_changes_has_the_slope_of_its_sign) {
+  for (const Placed& place : {placements[0], placements[1]}) {
+    const auto fastest = [&](double moment) {
+      const RunResult r = run(slider(place, 0.3, moment_along(moment)), "LINEAR/EIGENSOL\n");
+      EXPECT_EQ(r.status, 0) << r.err;
+      return r.eigenvalues(0).back();
+    };
+    EXPECT_LT(std::abs(fastest(1e-9) - fastest(1e-5)), 1e-4);
+    EXPECT_LT(std::abs(fastest(-1e-9) - fastest(-1e-5)), 1e-4);
+    EXPECT_GT(std::abs(fastest(1e-9) - fastest(-1e-9)), 1e-3);
   }
 }
 

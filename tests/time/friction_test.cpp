@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "places/symmetric_friction.h"
 #include "time/course.h"
 #include "time/reference_integration.h"
 
@@ -148,6 +149,27 @@ TEST(Friction, a_block_stops_and_stays_on_a_slope) {
   EXPECT_NEAR(c.last(2), 0, 1e-6);
   EXPECT_NEAR(c.last(3), -6, 1e-4);
   EXPECT_NEAR(c.variables.at(1)[200], c.last(1), 1e-7);
+}
+
+// What springs on both sides of a plane of symmetry leave of a moment is rounding: the motion is that of springs in the
+// plane.
+TEST(Friction, of_a_symmetric_mechanism_leads_it_like_its_middle) {
+  using namespace symmetric;
+  for (const Placed& place : placements) {
+    for (const auto& model : {slider, hinge, sleeve}) {
+      const std::string reads = "VARIABLE/1, FUNCTION=DX(30,4,4)\nVARIABLE/2, FUNCTION=DZ(30,4,4)\n";
+      const in_time::Run run{.end = 0.5, .steps = 50, .error = 1e-8};
+      const Course beside = led_through_time(model(place, 0.3, reads), run);
+      const Course middle = led_through_time(model(place, 0, reads), run);
+      ASSERT_TRUE(beside.ok()) << beside.failure;
+      ASSERT_TRUE(middle.ok()) << middle.failure;
+      EXPECT_GT(middle.drift(1) + middle.drift(2), 0.01);
+      for (const std::int64_t variable : {1, 2}) {
+        const auto &x = beside.variables.at(variable), &expected = middle.variables.at(variable);
+        for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], expected[k], 1e-6) << k;
+      }
+    }
+  }
 }
 
 }  // namespace

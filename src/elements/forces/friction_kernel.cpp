@@ -22,23 +22,6 @@ bool at_rest(const Motion& motion) {
   return motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
 }
 
-// The size of a vector. At zero it has a derivative by what leaves the vector as it is, and by nothing else.
-template <class T, std::size_t n>
-T size(const std::array<T, n>& v) {
-  const T s = squared(v);
-  if (s.value > 0) return sqrt(s);
-  T none(0.0);
-  for (const T& x : v) {
-    for (std::size_t k = 0; k < x.partial.size(); ++k)
-      if (x.partial[k] != 0.0) none.partial[k] = std::numeric_limits<double>::quiet_NaN();
-  }
-  return none;
-}
-template <class T>
-T size(const Vec3<T>& v) {
-  return size(std::array{v.x, v.y, v.z});
-}
-
 // a b, where b may be without slip: then a needs no derivative.
 template <class T>
 T product(const T& a, const T& b) {
@@ -56,47 +39,6 @@ Vec3<T> turning(const RelativeFrame<TimeTaylor<T>>& I) {
     w += cross(Vec3<T>{a->x.value, a->y.value, a->z.value}, Vec3<T>{a->x.rate, a->y.rate, a->z.rate}) * 0.5;
   }
   return w;
-}
-
-// The axis of the joint on which friction acts, in the axes of J.
-template <class T>
-Vec3<T> axis_of(const JointFriction& f, const RelativeFrame<TimeTaylor<T>>& I) {
-  if (f.surface == FrictionSurface::yoke_of_I) {
-    const auto& a = f.axis == 0 ? I.x : f.axis == 1 ? I.y : I.z;
-    return {a.x.value, a.y.value, a.z.value};
-  }
-  const Vector e = f.surface == FrictionSurface::yoke_of_J ? unit_vectors[f.axis] : unit_vectors[2];
-  return {T(e.x), T(e.y), T(e.z)};
-}
-
-template <class T>
-T overlap(const JointFriction& f, const T& displacement) {
-  return f.overlap + f.overlap_growth * (displacement - f.drawn.p.z);
-}
-
-// What presses the surfaces together: a force, or where the joint only turns its torque for a coefficient of 1.
-template <class T>
-T load(const JointFriction& f, const Vec3<T>& force, const Vec3<T>& torque, const Vec3<T>& axis,
-       const T& displacement) {
-  T sum(0.0);
-  if (f.surface == FrictionSurface::ball) {
-    if (f.of_force) sum += f.ball_radius * size(force);
-    return sum;
-  }
-  const T along = dot(force, axis), about = dot(torque, axis);
-  const Vec3<T> across = force - axis * along, bending = torque - axis * about;
-  switch (f.surface) {
-    case FrictionSurface::slide:
-    case FrictionSurface::sleeve:
-      if (f.of_force) sum += size(across);
-      if (f.of_bending) sum += size(bending) / overlap(f, displacement);
-      if (f.of_torsion && f.surface == FrictionSurface::slide) sum += size(std::array{about}) * (1.0 / f.reaction_arm);
-      break;
-    default:
-      if (f.of_force) sum += f.pin_radius * size(across) + f.friction_arm * size(std::array{along});
-      if (f.of_bending) sum += (f.pin_radius / f.bending_arm) * size(bending);
-  }
-  return sum;
 }
 
 template <class T, std::size_t n>
@@ -129,7 +71,10 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const JointFriction& f = elements[k];
     const std::size_t n = f.component_count();
-    Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1, -1};
+    Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1, -1,
+             -1};
+    p.rounding = layout.add_memory(labels[k], "rounding of the force");
+    layout.add_memory(labels[k], "rounding of the moment");
     for (std::size_t c = 0; c < n; ++c) layout.add_algebraic(labels[k], n == 1 ? 0 : static_cast<std::int32_t>(c) + 1);
     if (f.law.has_bristles()) {
       if (f.joint_acts) p.first_state = static_cast<std::int32_t>(layout.states.size());
@@ -171,8 +116,14 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
   };
   Vec3<D> force = seen_from_J(reaction.force.force, reaction.force.force_on_position);
   Vec3<D> torque = seen_from_J(reaction.force.torque, reaction.force.torque_on_position);
+  // Along axes that are turned a reaction takes something of every multiplier.
+  constexpr double turned = 16 * std::numeric_limits<double>::epsilon();
+  const double* known = motion.memory.data() + p.rounding;
+  ReactionRounding rounding{known[0], known[1]};
   for (const MarkerWrench::Scalar& s : reaction.scalars) {
     const Vector on_force = back * s.force, on_torque = back * s.torque;
+    const double rounded = turned * std::abs(motion.lambda[static_cast<std::size_t>(s.column)]);
+    rounding.force += norm(on_force) * rounded, rounding.torque += norm(on_torque) * rounded;
     for (std::size_t k = 0; k < 3; ++k) {
       force[k].partial[first_row_seed + out.row_count] = on_force[k];
       torque[k].partial[first_row_seed + out.row_count] = on_torque[k];
@@ -186,7 +137,7 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
   };
   if (p.first_state >= 0 && at_rest(motion)) out.creep = creep_here(p, I, motion);
   const Vec3<D> axis = axis_of(f, I), w = turning(I);
-  const D pressing = load(f, force, torque, axis, I.p.z.value);
+  const D pressing = load(f, force, torque, axis, I.p.z.value, rounding, out.sizes);
   const auto slips = [&]<std::size_t n>(std::array<D, n> u, std::array<D, n> z, std::array<double, n> preload,
                                         std::array<double, n> lever) {
     out.speed = std::sqrt(squared(u).value);
@@ -217,18 +168,13 @@ JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, co
     default:
       one(f.pin_radius * dot(axis, w), f.torque_preload);
   }
-  // The size of a load that is zero: a search for an equilibrium goes by the mean of all sides.
-  for (D& value : out.w) {
-    for (double& by : value.partial) by = at_rest(motion) && std::isnan(by) ? 0.0 : by;
-  }
   return out;
 }
 
-// Subtracts `value` from an equation.
-void JointFrictionKernel::add_row(std::int32_t row, const D& value, const Evaluated& at, const Placed& p,
-                                  const PairMotion& pair, PartialBy velocity_family, Equations& eq) const {
-  eq.add_residual(row, -value.value);
-  if (!eq.wants_partials()) return;
+// What a value depends on but for creep, take(family, column, partial).
+template <class Take>
+void JointFrictionKernel::by_motion_and_reaction(const D& value, const Evaluated& at, const PairMotion& pair,
+                                                 PartialBy velocity_family, const Layout& layout, const Take& take) {
   // The value as a force along x of J: that direction is at right angles to its own turn, and drops out.
   RelativeWrench carrier;
   carrier.force.x = value.value;
@@ -237,16 +183,24 @@ void JointFrictionKernel::add_row(std::int32_t row, const D& value, const Evalua
     carrier.on_pose[0][k] = value.partial[k], carrier.on_rate[0][k] = value.partial[6 + k];
   const PairForce spread_out = spread(pair, carrier, true);
   const Vector x = dynalin::value(pair.axes_J).x;
-  for_each_block(pair, eq.layout(), [&](const PairBlock& b) {
+  for_each_block(pair, layout, [&](const PairBlock& b) {
     const BlockPartials on = partials_by(b, spread_out);
     for (std::size_t k = 0; k < b.count; ++k) {
       const std::int32_t column = b.column + static_cast<std::int32_t>(k);
-      eq.add(PartialBy::position, row, column, -dot(x, on.force[k]));
-      eq.add(velocity_family, row, column, -dot(x, on.force_by_rate[k]));
+      take(PartialBy::position, column, dot(x, on.force[k]));
+      take(velocity_family, column, dot(x, on.force_by_rate[k]));
     }
   });
-  for (std::size_t k = 0; k < at.row_count; ++k)
-    eq.add(PartialBy::lambda, row, at.rows[k], -value.partial[first_row_seed + k]);
+  for (std::size_t k = 0; k < at.row_count; ++k) take(PartialBy::lambda, at.rows[k], value.partial[first_row_seed + k]);
+}
+
+// Subtracts `value` from an equation.
+void JointFrictionKernel::add_row(std::int32_t row, const D& value, const Evaluated& at, const Placed& p,
+                                  const PairMotion& pair, PartialBy velocity_family, Equations& eq) const {
+  eq.add_residual(row, -value.value);
+  if (!eq.wants_partials()) return;
+  by_motion_and_reaction(value, at, pair, velocity_family, eq.layout(),
+                         [&](PartialBy family, std::int32_t column, double by) { eq.add(family, row, column, -by); });
   if (p.first_state < 0) return;
   for (std::size_t k = 0; k < p.element->component_count(); ++k)
     eq.add(PartialBy::state, row, p.first_state + static_cast<std::int32_t>(k), -value.partial[first_creep_seed + k]);
@@ -369,25 +323,6 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
                                                               : Components::torque;
 }
 
-// The size of a force or moment that is zero has no derivative.
-void JointFrictionKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {
-  if (at_rest(motion)) return;
-  for (std::size_t k = 0; k < placed_.size(); ++k) {
-    const Placed& p = placed_[k];
-    if (!p.joint) continue;
-    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
-    const bool defined = std::ranges::all_of(
-        at.w, [](const D& w) { return std::ranges::all_of(w.partial, [](double x) { return std::isfinite(x); }); });
-    if (defined) continue;
-    undefined.add(
-        UndefinedValue{&(*labels_)[k],
-                       fmt::format("{}: a force or moment that JOINT/{} bears across its surfaces is zero while they "
-                                   "slip, and friction by its size has no derivative there",
-                                   (*labels_)[k].full_text(), p.element->joint),
-                       false});
-  }
-}
-
 std::string JointFrictionKernel::domain_violation(const Motion& motion) const {
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const JointFriction& f = *placed_[k].element;
@@ -438,6 +373,49 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
     sentences.push_back(
         fmt::format("{} bears {}, as much as JOINT/{} can bear by friction there, and slides under what is left",
                     (*labels_)[k].full_text(), size, f.joint));
+  }
+}
+
+void JointFrictionKernel::vanishing(const Motion& motion, const Layout& layout, std::vector<VanishingSize>& out) const {
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    if (!p.joint || (p.element->rests_in_statics && at_rest(motion))) continue;
+    const PairMotion pair = pair_motion(motion, *p.I, *p.J);
+    const Evaluated at = evaluate(p, pair, motion);
+    for (const Sizes::Vanishing& none : at.sizes.vanishing()) {
+      VanishingSize size;
+      for (std::size_t c = 0; c < p.element->component_count(); ++c) {
+        if (at.w[c].partial[none.seed] != 0) size.algebraic.push_back(p.first_algebraic + static_cast<std::int32_t>(c));
+      }
+      if (size.algebraic.empty()) continue;
+      for (std::size_t c = 0; c < none.count; ++c) {
+        std::vector<VanishingSize::Partial>& component = size.components.emplace_back();
+        by_motion_and_reaction(none.components[c], at, pair, PartialBy::damping, layout,
+                               [&](PartialBy family, std::int32_t column, double by) {
+                                 if (by != 0) component.push_back({family, column, by});
+                               });
+      }
+      size.reason = fmt::format(
+          "{}: a force or moment that JOINT/{} bears across its surfaces is zero while they "
+          "slip, and friction by its size has no derivative there",
+          (*labels_)[k].full_text(), p.element->joint);
+      out.push_back(std::move(size));
+    }
+  }
+}
+
+void JointFrictionKernel::take_rounding(const Motion& motion, std::span<const double> of_multipliers,
+                                        Memory& memory) const {
+  for (const Placed& p : placed_) {
+    double* const known = memory.data() + p.rounding;
+    known[0] = known[1] = 0;
+    if (!p.joint) continue;
+    MarkerWrench reaction;
+    p.joint->wrench(motion, p.which, true, reaction);
+    for (const MarkerWrench::Scalar& s : reaction.scalars) {
+      const double rounded = of_multipliers[static_cast<std::size_t>(s.column)];
+      known[0] += norm(s.force) * rounded, known[1] += norm(s.torque) * rounded;
+    }
   }
 }
 
