@@ -25,7 +25,9 @@ struct Reach {
   Vector farthest;
   Matrix3 slope;
 };
+inline bool is_point(const Vector& semi_axes) { return semi_axes.x == 0 && semi_axes.y == 0 && semi_axes.z == 0; }
 inline Reach reach(const Vector& semi_axes, const Matrix3& axes, const Vector& n) {
+  if (is_point(semi_axes)) return {};
   Matrix3 squared = axes;
   for (std::size_t k = 0; k < 3; ++k) squared[k] = axes[k] * (semi_axes[k] * semi_axes[k]);
   const Matrix3 S = squared * transpose(axes);
@@ -36,7 +38,8 @@ inline Reach reach(const Vector& semi_axes, const Matrix3& axes, const Vector& n
 }
 
 // Newton's method on the sphere of directions from one of them, in double. Nothing where it does not converge: the
-// ellipsoids are as deep in each other as they are wide, and no direction is the one. A semi-axis may be zero.
+// ellipsoids are as deep in each other as they are wide, and no direction is the one. A semi-axis may be zero, and of a
+// point all are.
 inline std::optional<Vector> common_normal(const Vector& a, const RelativeFrame<double>& first, const Vector& b,
                                            Vector n) {
   const Matrix3 R{first.x, first.y, first.z};
@@ -79,12 +82,12 @@ CommonNormal<T> common_normal_at(const Vector& n, const Vector& a, const Relativ
   const auto points = [&](const Vec3<T>& m) {
     const Vec3<T> in_first{dot(at.x, m) * a.x, dot(at.y, m) * a.y, dot(at.z, m) * a.z};
     const Vec3<T> in_second{m.x * b.x, m.y * b.y, m.z * b.z};
-    const T reach_first = norm(in_first), reach_second = norm(in_second);
+    const T reach_first = norm(in_first);
     const Vec3<T> from_centre = at.x * (in_first.x * a.x) + at.y * (in_first.y * a.y) + at.z * (in_first.z * a.z);
     CommonNormal<T> c;
     c.normal = m;
     c.on_first = at.p - from_centre / reach_first;
-    c.on_second = Vec3<T>{in_second.x * b.x, in_second.y * b.y, in_second.z * b.z} / reach_second;
+    if (!is_point(b)) c.on_second = Vec3<T>{in_second.x * b.x, in_second.y * b.y, in_second.z * b.z} / norm(in_second);
     return c;
   };
   const CommonNormal<T> here = points(Vec3<T>{T(n.x), T(n.y), T(n.z)});

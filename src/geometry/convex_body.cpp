@@ -160,6 +160,7 @@ ConvexBody::ConvexBody(std::vector<Vector> corners, std::vector<Face> faces)
       const Vector way = corners_[to] - corners_[from];
       e.length = norm(way), e.along = way / e.length;
       e.into_left = cross(face.normal, e.along), e.into_right = cross(e.along, faces_[e.right].normal);
+      for (const Index end : {from, to}) at_[end].edges.push_back(static_cast<Index>(edges_.size()));
       edges_.push_back(e);
     }
   }

@@ -44,6 +44,7 @@ class ConvexBody {
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Index>& faces_at(Index corner) const { return at_[corner].faces; }
+  const std::vector<Index>& edges_at(Index corner) const { return at_[corner].edges; }
   double size() const { return size_; }
   // A ball about its middle that the body holds.
   const Vector& middle() const { return middle_; }
@@ -54,7 +55,7 @@ class ConvexBody {
 
  private:
   struct AtCorner {
-    std::vector<Index> neighbours, faces;
+    std::vector<Index> neighbours, faces, edges;
   };
 
   ConvexBody(std::vector<Vector> corners, std::vector<Face> faces);

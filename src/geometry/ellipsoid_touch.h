@@ -228,6 +228,12 @@ std::optional<Touch<T>> touch_feature(const PlacedEllipsoid<T>& e, const Box& b,
   return t;
 }
 
+// Those that are looked at: all, of a solid with as few.
+template <class Solid, class Visit>
+void for_each_candidate(const PlacedEllipsoid<double>&, const Solid& s, const Visit& visit) {
+  for (std::size_t k = 0; k < features(s); ++k) visit(k);
+}
+
 template <class T, class Solid>
 Touch<T> touch_ellipsoid(const Ellipsoid& ellipsoid, const RelativeFrame<T>& at, const Solid& s) {
   const PlacedEllipsoid<T> e{ellipsoid.semi_axes, at};
@@ -239,16 +245,16 @@ Touch<T> touch_ellipsoid(const Ellipsoid& ellipsoid, const RelativeFrame<T>& at,
   const auto is_elsewhere = [](const Touch<double>& a, const Touch<double>& b) {
     return norm(a.normal - b.normal) > 1e-6;
   };
-  for (std::size_t k = 0; k < features(s); ++k) {
+  for_each_candidate(plain, s, [&](std::size_t k) {
     const auto t = touch_feature(plain, s, k);
-    if (!t) continue;
+    if (!t) return;
     if (t->gap > most.gap) {
       if (is_elsewhere(most, *t)) next = most;
       most = *t, best = k;
     } else if (t->gap > next.gap && is_elsewhere(most, *t)) {
       next = *t;
     }
-  }
+  });
   const double size = norm(ellipsoid.semi_axes);
   // What is found on one feature after the other is held against all directions.
   const auto separation = [&](const Vector& n) {

@@ -36,6 +36,11 @@ Distance<T> distance(const FacetBody::Place& place, const Vec3<T>& p) {
   return d;
 }
 
+template <class T>
+Distance<T> distance(const Polyhedron& f, const Vec3<T>& p) {
+  return distance(f.body->nearest(value_of(p)), p);
+}
+
 }  // namespace solid
 
 template <class T>

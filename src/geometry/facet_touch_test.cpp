@@ -79,6 +79,15 @@ TEST_F(facet_touch, of_a_point_and_a_ball_is_that_of_a_box) {
   compare(facets, {Ball{0.3}}, box, {Ball{0.3}}, 0.6);
 }
 
+TEST_F(facet_touch, of_a_ring_on_a_box_of_facets_is_that_on_a_box) {
+  const Side facets{facets_of_box()}, box{plain};
+  for (const Torus& ring : {Torus{0.5, 0.1}, Torus{0.2, 0.15}}) {
+    // Deeper than its tube is wide its circle goes through the body.
+    compare({ring}, facets, {ring}, box, 0.4, ring.minor);
+    compare(facets, {ring}, box, {ring}, 0.4, ring.minor);
+  }
+}
+
 // A ball in a box touches each wall that it reaches.
 TEST_F(facet_touch, in_a_box_of_facets_is_that_in_a_box) {
   const Side facets{facets_of_box(), true}, box{plain, true};

@@ -24,16 +24,22 @@ struct PartingDirection {
   Vector normal;  // out of J
   double separation = 0;
   Of of = Of::face;
-  std::size_t which = 0;  // line direction of a box
+  std::size_t which = 0;  // line direction of a box; of a convex body the face (of I: none of them) or edge
   bool level = false;     // a whole circle of directions is as good
 };
 
 // In fixed room for all there can be: 24 local maxima of 48 samples on each of four circles, 8 faces and 6 normals of
-// lines; of two frusta half of that and 24 of rims.
+// lines; of two frusta half of that and 24 of rims. Of more, which a convex body may have, those that part last are
+// left out.
 class PartingDirections {
  public:
   void add(const PartingDirection& d) {
-    if (count_ < room_.size()) room_[count_++] = d;
+    if (count_ < room_.size()) {
+      room_[count_++] = d;
+    } else if (auto last = std::ranges::min_element(room_, {}, &PartingDirection::separation);
+               last->separation < d.separation) {
+      *last = d;
+    }
     largest_ = std::max(largest_, d.separation);
   }
   double largest() const { return largest_; }

@@ -3,6 +3,7 @@
 // its own two features.
 #pragma once
 
+#include "geometry/convex_body.h"
 #include "geometry/touch.h"
 
 namespace dynalin {
@@ -13,11 +14,16 @@ inline constexpr std::size_t frustum_box_touches = 23;
 // Of two: each way both rims in an end and a line of the mantle twice over its rim, two lines that cross, the ends of
 // parallel ones, and one of none of these.
 inline constexpr std::size_t frustum_touches = 14;
+// As with a box whose faces have as many corners as the face that has most, and all corners and edges beside it, or
+// some hundreds of them; of more the last one is not defined.
+std::size_t frustum_flat_touches(const ConvexBody&);
 
 template <class T>
 void touch_frustum(const solid::Frustum& I, const RelativeFrame<T>& I_from_J, const solid::Box& J, std::span<Touch<T>>);
 template <class T>
 void touch_frustum(const solid::Frustum& I, const RelativeFrame<T>& I_from_J, const solid::Frustum& J,
                    std::span<Touch<T>>);
+template <class T>
+void touch_frustum(const solid::Frustum& I, const RelativeFrame<T>& I_from_J, const ConvexBody& J, std::span<Touch<T>>);
 
 }  // namespace dynalin

@@ -5,6 +5,7 @@
 #include "geometry/box_touch.h"
 #include "geometry/cavity_touch.h"
 #include "geometry/common_normal.h"
+#include "geometry/convex_ellipsoid_touch.h"
 #include "geometry/convex_touch.h"
 #include "geometry/ellipsoid_touch.h"
 #include "geometry/facet_touch.h"
@@ -42,6 +43,8 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
     if constexpr (std::is_same_v<A, Ball>) return facet_touches(a);
     const ConvexBody* body = b.body->convex();
     if (!body || B_reversed) return 0;
+    if constexpr (std::is_same_v<A, Ellipsoid> || std::is_same_v<A, Torus>) return 1;
+    if constexpr (std::is_same_v<A, Frustum>) return frustum_flat_touches(*body);
     if constexpr (std::is_same_v<A, Box>) return convex_touches(outermost(a), body->corners().size());
     if constexpr (std::is_same_v<A, Polyhedron>)
       return a.body->convex() ? convex_touches(a.body->convex()->corners().size(), body->corners().size()) : 0;
@@ -170,6 +173,9 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
           return;
         } else if constexpr (std::is_same_v<U, Polyhedron>) {
           if constexpr (std::is_same_v<S, Ball>) touch_facets(a, A_from_B.p, *b.body, B.reversed, out);
+          if constexpr (std::is_same_v<S, Torus>) touch_torus(a, A_from_B, b, out);
+          if constexpr (std::is_same_v<S, Frustum>) touch_frustum(a, A_from_B, *b.body->convex(), out);
+          if constexpr (std::is_same_v<S, Ellipsoid>) out[0] = touch_ellipsoid(a, A_from_B, *b.body->convex());
           if constexpr (std::is_same_v<S, Box>)
             touch_convex(ConvexBody::box(a.low, a.high), A_from_B, *b.body->convex(), out);
           if constexpr (std::is_same_v<S, Polyhedron>)

@@ -149,9 +149,9 @@ bool check_pairs(const Model& model, const ElementLabel& label, const ContactSid
           fmt::format("{} lets {}, {}, touch {}, {}, which is not available yet", label.text(),
                       model.label(J.graphics).text(), name_of(f.J[b].side), model.label(I.graphics).text(),
                       name_of(f.I[a].side)),
-          "all solids touch each other, a PLANE and the walls of a cavity; but what is drawn in facets touches balls, "
-          "POINTs, PLANEs, the walls of cavities in closed form and, where it is convex, BOXes and other convex facets "
-          "alone (several convex bodies may stand for one that is not), of cavities ELLIPSOIDs touch BOX, CYLINDER and "
+          "all solids touch each other, a PLANE and the walls of a cavity; but what is drawn in facets and not convex "
+          "touches balls, POINTs, PLANEs and walls of cavities in closed form alone (several convex bodies may stand "
+          "for it), cavities of facets hold balls and POINTs alone, of cavities ELLIPSOIDs touch BOX, CYLINDER and "
           "FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
       return false;
     }

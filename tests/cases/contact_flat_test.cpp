@@ -1,0 +1,152 @@
+// CONTACT of convex bodies of facets with ellipsoids, cylinders and frusta: as with the boxes that they are drawn like.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cases/run.h"
+
+namespace dynalin::cases::contact_flat_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
+const std::string law = "IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=30, DMAX=1E-5\n";
+const std::string rubs =
+    "COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
+    "FRICTION_TRANSITION_VELOCITY=1, ";
+
+// A closed outline in the plane of x and y, drawn along z of its marker.
+std::string extrusion(int id, int marker, const std::string& points, int count, double length) {
+  return fmt::format(
+      "MATRIX/{0}, FULL=RORDER, ROWS={1}, COLUMNS=3, VALUES={2}\nCURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, ORDER=2\n"
+      "GRAPHICS/{0}, EXTRUSION, CID={0}, CRM={3}, LENGTH={4}\n",
+      id, count, points, marker, length);
+}
+// From −1 to 1 and down from 0, with a point more on each side of its outline or without.
+const std::string slab_of_facets =
+    "MARKER/5, PART=1, QP=-1,-1,-0.5\n" +
+    extrusion(1, 5, "0,0,0, 1.2,0,0, 2,0,0, 2,0.7,0, 2,2,0, 0.9,2,0, 0,2,0, 0,1.1,0, 0,0,0", 9, 0.5);
+const std::string slab_of_closed_form = "MARKER/5, PART=1, QP=-1,-1,-0.5\nGRAPHICS/1, BOX, CORNER=5, X=2, Y=2, Z=0.5\n";
+
+std::string on_it(const std::string& shape, const std::string& pose, bool exchanged = false,
+                  const std::string& friction = rubs) {
+  return "PART/2, MASS=2, CM=2, IP=0.1,0.12,0.2, " + pose + "\nMARKER/2\nMARKER/3, PART=2, QP=0,0,-0.3\n" + shape +
+         (exchanged ? "CONTACT/1, IGEOM=1, JGEOM=2, " : "CONTACT/1, IGEOM=2, JGEOM=1, ") + friction + law;
+}
+const std::string egg = "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.8, YSCALE=0.6, ZSCALE=0.5\n",
+                  drum = "GRAPHICS/2, CYLINDER, CM=3, LENGTH=0.6, RADIUS=0.2\n",
+                  ring = "GRAPHICS/2, TORUS, CM=3, MAJOR_RADIUS=0.3, MINOR_RADIUS=0.1\n",
+                  tub = "GRAPHICS/2, FRUSTUM, CM=3, LENGTH=0.6, BOTTOM=0.2, TOP=0.3\n";
+
+class ContactFlat : public Cases {
+ protected:
+  std::vector<std::complex<double>> values(const std::string& model, const std::string& before = "") const {
+    const RunResult r = run(head + model + "END\n", before + "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    if (r.status != 0) return {};
+    auto v = r.eigenvalues(r.json.at("results").size() - 1);
+    std::ranges::sort(
+        v, [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
+    return v;
+  }
+  static void expect_same(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b,
+                          double tolerance = 1e-9) {
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_FALSE(a.empty());
+    EXPECT_GT(std::abs(a.back()), 1);
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), tolerance * std::abs(a.back())) << k;
+  }
+};
+
+}  // namespace
+
+// On its face, over its edge and at its corner.
+TEST_F(ContactFlat, an_ellipsoid_on_a_slab_of_facets_is_one_on_a_box) {
+  for (const char* pose : {"QG=0.1,0.2,0.2495, VX=0.02, WY=0.1", "QG=0.1,0.2,0.25, REULER=10D,13D,20D, VX=0.02, WY=0.1",
+                           "QG=1.1,0.3,0.2, REULER=0,40D,0", "QG=1.12,1.1,0.1, REULER=30D,20D,0"}) {
+    SCOPED_TRACE(pose);
+    const auto wanted = values(slab_of_closed_form + on_it(egg, pose));
+    expect_same(wanted, values(slab_of_facets + on_it(egg, pose)));
+    expect_same(wanted, values(slab_of_facets + on_it(egg, pose, true)));
+  }
+}
+
+// Standing, leaning, lying; each in the middle and over the edge.
+TEST_F(ContactFlat, cylinders_and_frusta_on_a_slab_of_facets_are_those_on_a_box) {
+  for (const std::string& shape : {drum, tub}) {
+    for (const char* pose :
+         {"QG=0.1,0.2,0.2995, VX=0.02, WY=0.1", "QG=0.1,0.2,0.345, REULER=10D,20D,20D, VX=0.02, WY=0.1",
+          "QG=0.1,0.2,0.199, REULER=10D,90D,0", "QG=0.95,0.2,0.2995", "QG=0.9,0.95,0.2995",
+          "QG=0.9,0.2,0.199, REULER=70D,90D,0"}) {
+      SCOPED_TRACE(std::string(pose) + shape);
+      const auto wanted = values(slab_of_closed_form + on_it(shape, pose));
+      expect_same(wanted, values(slab_of_facets + on_it(shape, pose)));
+      expect_same(wanted, values(slab_of_facets + on_it(shape, pose, true)));
+    }
+  }
+}
+
+TEST_F(ContactFlat, a_ring_on_a_slab_of_facets_is_one_on_a_box) {
+  for (const char* pose : {"QG=0.1,0.2,0.45, REULER=10D,20D,20D", "QG=1.05,0.2,0.6, REULER=90D,60D,0"}) {
+    SCOPED_TRACE(pose);
+    expect_same(values(slab_of_closed_form + on_it(ring, pose)), values(slab_of_facets + on_it(ring, pose)));
+  }
+}
+
+TEST_F(ContactFlat, they_come_to_rest_as_on_a_box) {
+  for (const auto& [shape, pose] : {std::pair(drum, "QG=0.3,0.2,0.21, REULER=20D,89D,0"),
+                                    std::pair(drum, "QG=0.3,0.2,0.301"), std::pair(tub, "QG=0.3,0.2,0.301")}) {
+    SCOPED_TRACE(pose);
+    const std::string statics = "SIMULATE/STATICS\n";
+    expect_same(values(slab_of_closed_form + on_it(shape, pose, false, ""), statics),
+                values(slab_of_facets + on_it(shape, pose, false, ""), statics), 1e-8);
+  }
+}
+
+// A prism with its edge downwards between two rollers, by hand: on each of them it has a line of the length 1, held at
+// both ends.
+TEST_F(ContactFlat, a_prism_of_facets_lies_on_two_rollers) {
+  constexpr double k = 1e4, m = 4, radius = 0.3, slant = std::numbers::pi / 4;
+  const double c = std::cos(slant), s = std::sin(slant);
+  // Up and down 4 places each bear N with 4 N c = 40.
+  const double N = m * 10 / (4 * c), depth = N / k, apart = 0.6;
+  // The lower edge of the prism is where both faces meet, at a height above the axes of the rollers.
+  const double edge = (radius - depth) / c - apart * s / c;
+  const std::string model =
+      fmt::format(
+          "MARKER/3, QP=-0.6,-1,0, REULER=0,-90D,0\nMARKER/4, QP=0.6,-1,0, REULER=0,-90D,0\n"
+          "GRAPHICS/3, CYLINDER, CM=3, LENGTH=2, RADIUS=0.3\nGRAPHICS/4, CYLINDER, CM=4, LENGTH=2, RADIUS=0.3\n"
+          "PART/2, MASS=4, CM=2, IP=1,1,1, QG=0,0,{:.17g}\nMARKER/2\nMARKER/6, QP=0,0.5,0, REULER=0,90D,0\nJPRIM/1, "
+          "ORIENTATION, I=2, J=1\n",
+          edge) +
+      extrusion(2, 6, "0,0,0, 1.5,1.5,0, -1.5,1.5,0, 0,0,0", 4, 1) +
+      "CONTACT/1, IGEOM=2, JGEOM=3,4, IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=0, DMAX=1\n";
+  const auto v = values(model);
+  ASSERT_EQ(v.size(), 6u);
+  // Faces do not turn, and so the normals stay: up and down 4 k c², across 4 k s².
+  EXPECT_NEAR(std::abs(v[2]), std::sqrt(4 * k * s * s / m) / (2 * std::numbers::pi), 1e-7);
+  EXPECT_NEAR(std::abs(v[5]), std::sqrt(4 * k * c * c / m) / (2 * std::numbers::pi), 1e-7);
+}
+
+TEST_F(ContactFlat, what_is_not_convex_and_cavities_are_refused_by_name) {
+  const auto said = [&](const std::string& points, const std::string& shape, const std::string& flip = "") {
+    const RunResult r = run(head + "MARKER/5, PART=1, QP=-1,-1,-0.5\n" + extrusion(1, 5, points, 7, 0.5) +
+                                on_it(shape, "QG=0,0,0.3", false, flip + rubs) + "END\n",
+                            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 1);
+    EXPECT_THAT(r.err, HasSubstr("[contact-pair-not-built]"));
+    return r.err;
+  };
+  const std::string angle = "0,0,0, 2,0,0, 2,1,0, 1,1,0, 1,2,0, 0,2,0, 0,0,0",
+                    slab = "0,0,0, 2,0,0, 2,1,0, 2,2,0, 1,2,0, 0,2,0, 0,0,0";
+  EXPECT_THAT(said(angle, egg), HasSubstr("a body of facets that is not convex, touch GRAPHICS/2, an ELLIPSOID"));
+  EXPECT_THAT(said(angle, drum), HasSubstr("a body of facets that is not convex, touch GRAPHICS/2, a CYLINDER"));
+  EXPECT_THAT(said(slab, egg, "JFLIP_GEOMETRY=1, "), HasSubstr("the inside of a convex body of facets"));
+  EXPECT_THAT(said(slab, drum, "JFLIP_GEOMETRY=1, "), HasSubstr("the inside of a convex body of facets"));
+}
+
+}  // namespace dynalin::cases::contact_flat_test
