@@ -207,10 +207,10 @@ TEST_F(ContactFacets, says_what_facets_nothing_can_touch) {
   expect_error(file("none.stl") + ball("0,0,0.2"), "none.stl cannot be read");
   expect_error(file("lump.stl") +
                    "PART/2, MASS=2, CM=2, IP=0.1,0.12,0.2\nMARKER/2\nGRAPHICS/2, CYLINDER, CM=2, LENGTH=1, RADIUS=0.1\n"
-                   "CONTACT/1, IGEOM=2, JGEOM=1, " +
+                   "CONTACT/1, IGEOM=2, JGEOM=1, JFLIP_GEOMETRY=1, " +
                    law,
-               "CONTACT/1 lets GRAPHICS/1, a convex body of facets, touch GRAPHICS/2, a CYLINDER or FRUSTUM, which is "
-               "not available");
+               "CONTACT/1 lets GRAPHICS/1, the inside of a convex body of facets, touch GRAPHICS/2, a CYLINDER or "
+               "FRUSTUM, which is not available");
 }
 
 // A groove so flat that its bottom is in the ball: two walls less the bottom, 2 U(r − h cos β) − U(r − h) with U = k
