@@ -40,7 +40,9 @@ bool some_direction_exceeds(double limit, const Separation& separation) {
     const double z = 1 - (2 * k + 1.0) / count, r = std::sqrt(1 - z * z);
     look({r * std::cos(golden * k), r * std::sin(golden * k), z});
   }
-  for (double step = 0.2; step > 1e-5 && most <= limit;) {
+  // Along a ridge that is as high all along it would go on with ever smaller gains.
+  int steps = 300;
+  for (double step = 0.2; step > 1e-5 && most <= limit && steps > 0; --steps) {
     const Vector from = best;
     bool better = false;
     for (std::size_t k = 0; k < 3; ++k) {

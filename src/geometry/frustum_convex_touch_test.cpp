@@ -304,6 +304,18 @@ TEST_F(FrustumConvex, stands_on_all_corners_of_a_dome) {
   expect_steady([&](double tilt) { return at(tilt, 0.04).force; });
 }
 
+// As deep along a whole circle of directions but for one: a disc on the end of a drum, all about one axis.
+TEST_F(FrustumConvex, stands_on_what_has_the_same_axis) {
+  const Side drum{facets_of(dynalin::cylinder(0.8, 1.2, {.segments = 40}))}, disc{Frustum{0, 0.4, 0.04, 0.4}};
+  for (const double depth : {1e-4, 0.01, 0.03}) {
+    const auto sum = resultant(disc, Stand{{0, 0, 1.2 - depth}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, drum);
+    EXPECT_TRUE(sum.defined);
+    EXPECT_EQ(sum.places, 1);
+    EXPECT_NEAR(sum.force.z, depth, 1e-4);
+    EXPECT_LT(norm(sum.torque), 1e-12);
+  }
+}
+
 // A rod along an arch of strips: on all edges that are below it.
 TEST_F(FrustumConvex, lies_on_all_edges_of_an_arch) {
   const Side arch{facets_of(dynalin::cylinder(2, 1, {.segments = 60}), {0, 0, -0.5})}, rod{Frustum{-1, 0.1, 1, 0.1}};
