@@ -14,8 +14,8 @@
 #include <numbers>
 #include <span>
 
-#include "geometry/common_normal.h"
 #include "geometry/placed_frustum.h"
+#include "geometry/rim_normal.h"
 
 namespace dynalin::solid {
 
@@ -28,9 +28,12 @@ struct PartingDirection {
   bool level = false;     // a whole circle of directions is as good
 };
 
+// What parts so much later than the best is not where they touch, whatever has been missed before it.
+inline constexpr double deeper = 2;
+
 // In fixed room for all there can be: 24 local maxima of 48 samples on each of four circles, 8 faces and 6 normals of
-// lines; of two frusta half of that and 24 of rims. Of more, which a convex body may have, those that part last are
-// left out.
+// lines; of two frusta half of that and those of rims, each of these once. Of more, which a convex body may have,
+// those that part last are left out.
 class PartingDirections {
  public:
   void add(const PartingDirection& d) {
@@ -112,6 +115,14 @@ class Parting {
     found_.add({n, separation(n), of, which, level});
   }
 
+  // Whether all normals within so many radians about one are too deep to count: the farthest points d of both there say
+  // that the separation across another one m is at most m·d.
+  bool is_deep_beside(const Ruled<double>& r, double angle, double sense, double within) const {
+    const Vector n = r.normal(angle) * sense, d = farthest(I_, -n) - farthest(J_, n);
+    const double most = dot(n, d) + within * std::abs(dot(r.turned(angle), d)) +
+                        0.5 * within * within * std::abs(r.along_radius * dot(r.outward(angle), d));
+    return most < deeper * std::min(found_.largest(), 0.0) - 2 * coincidence * size_;
+  }
   // Each place on the circle of its normals where the separation is the largest of those nearby.
   void search_circle(const Ruled<double>& r, double sense, PartingDirection::Of of, std::size_t which) {
     constexpr std::size_t samples = 48;
@@ -122,6 +133,7 @@ class Parting {
     if (*high - *low < coincidence * size_) return add(r.normal(0.0) * sense, of, which, true);
     for (std::size_t k = 0; k < samples; ++k) {
       if (at[k] < at[(k + samples - 1) % samples] || at[k] <= at[(k + 1) % samples]) continue;
+      if (is_deep_beside(r, static_cast<double>(k) * step, sense, step)) continue;
       double from = (static_cast<double>(k) - 1) * step, to = (static_cast<double>(k) + 1) * step;
       for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (from + to);
@@ -174,6 +186,28 @@ class Parting {
       }
     }
     search_beside_ends(I_, J_, true), search_beside_ends(J_, I_, false);
+    search_beyond_lines();
+  }
+  // What is largest about a mantle, with the place beyond an end of the line there, is not so across the mantle: it
+  // goes on uphill with the rim at this end. However narrow the directions are in which both rims reach, nothing is
+  // missed so where a place passes over a rim.
+  void search_beyond_lines() {
+    const std::size_t count = found_.all().size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const PartingDirection d = found_.all()[k];
+      const bool of_I = d.of == PartingDirection::Of::ruled_I;
+      if (d.level || (!of_I && d.of != PartingDirection::Of::ruled_J)) continue;
+      const Vector& n = d.normal;
+      const Ruled<double> mantle = of_I ? I_.mantle() : J_.mantle();
+      const Edge<double> line = mantle.line(of_I ? -n : n);
+      const bool upper = upper_reaches(of_I ? J_ : I_, of_I ? n : -n);
+      const Vector other = farthest((of_I ? J_ : I_).rim(upper), of_I ? n : -n);
+      const double along = dot(other - line.from, line.along);
+      if (along >= 0 && along <= line.length) continue;
+      const bool beyond_upper = along > 0;
+      climb({n, d.separation,
+             of_I ? (beyond_upper ? 2u : 0u) + (upper ? 1u : 0u) : (upper ? 2u : 0u) + (beyond_upper ? 1u : 0u)});
+    }
   }
   // Where the deepest point below an end of `f` is a little outside of its rim, both rims have a common normal a little
   // beside that of the end, tilted towards this point: between all directions that are looked at otherwise.
@@ -209,11 +243,14 @@ class Parting {
     if (s.separation * std::cos(within) + across * std::sin(within) < found_.largest()) return;
     const Circle<double> on_I = I_.rim(s.pair >= 2), on_J = J_.rim(s.pair % 2 == 1);
     if (!std::isfinite(s.separation) || on_I.radius == 0 || on_J.radius == 0) return;
-    const RelativeFrame<double> frame{on_I.centre - on_J.centre, I_.at.x, I_.at.y, I_.at.z};
-    const auto n = common_normal({on_I.radius, on_I.radius, 0}, frame, {on_J.radius, on_J.radius, 0}, s.normal);
-    // Of the rims that reach there.
-    if (n && upper_reaches(I_, -*n) == (s.pair >= 2) && upper_reaches(J_, *n) == (s.pair % 2 == 1))
-      add(*n, PartingDirection::Of::rims, s.pair);
+    const auto n = RimPair(on_I, on_J).uphill(s.normal);
+    // Of the rims that reach there, and once.
+    if (!n || upper_reaches(I_, -*n) != (s.pair >= 2) || upper_reaches(J_, *n) != (s.pair % 2 == 1)) return;
+    const auto found = found_.all();
+    const bool again = std::any_of(found.begin(), found.end(), [&](const PartingDirection& other) {
+      return other.of == PartingDirection::Of::rims && other.which == s.pair && norm(other.normal - *n) < 1e-7;
+    });
+    if (!again) add(*n, PartingDirection::Of::rims, s.pair);
   }
 
   const PlacedFrustum<double>& I_;

@@ -92,7 +92,10 @@ class PlacesAbout {
       last = across(of_I, J.rim(upper_J), false);
     } else if (d.of == PartingDirection::Of::ruled_J) {
       last = across(of_J, I.rim(upper_I), true);
-    } else if (d.of == PartingDirection::Of::rims) {
+    }
+    // Beyond the end of the line its rim goes on, with the same force: there is no edge to it.
+    if (last && value_of(last->weight) > 0) last->weight = T(1.0);
+    if (d.of == PartingDirection::Of::rims) {
       const Circle<T> a = I.rim(d.which >= 2), b = J.rim(d.which % 2 == 1);
       const RelativeFrame<T> seen{a.centre - b.centre, I.at.x, I.at.y, I.at.z};
       const auto c = common_normal_at<T>(n_, {a.radius, a.radius, 0}, seen, {b.radius, b.radius, 0});
@@ -214,9 +217,12 @@ class PlacesAbout {
     }
     return found;
   }
+  bool is_at(const std::optional<Touch<T>>& t, const std::optional<Touch<T>>& already) const {
+    return t && already && norm(value_of(t->point) - value_of(already->point)) < 1e3 * tolerance_;
+  }
   // One that is there already hands its share to that one.
   void put_but(std::optional<Touch<T>>& t, std::optional<Touch<T>>& already) {
-    if (t && already && norm(value_of(t->point) - value_of(already->point)) < 1e3 * tolerance_) {
+    if (is_at(t, already)) {
       already->weight *= t->weight;
       t.reset();
     }
@@ -224,8 +230,9 @@ class PlacesAbout {
   }
   template <class S>
   void put_passes(const PlacedFrustum<T>& f, std::optional<bool> end, const Edge<S>& line, const Ruled<T>& r,
-                  bool out_of_J, std::optional<Touch<T>>& already) {
-    for (std::optional<Touch<T>>& t : passes_over(f, end, line, r, out_of_J)) put_but(t, already);
+                  bool out_of_J, const std::optional<Touch<T>>& already) {
+    for (const std::optional<Touch<T>>& t : passes_over(f, end, line, r, out_of_J))
+      put(is_at(t, already) ? std::nullopt : t);
   }
 
   // The angle by which the outline of what both have in common turns where it passes from an edge to the rim or back,

@@ -31,7 +31,6 @@ void touch(const PlacedFrustum<T>& I, const Other& J, std::span<Touch<T>> out) {
   const std::span<const PartingDirection> all = parting.all();
   const double size = std::min(I.size(), J.size()), tolerance = coincidence * size;
   constexpr std::size_t tries = 8;
-  constexpr double deeper = 2;  // what parts so much later is not where they touch, whatever has been missed before it
   const PartingDirection& best = all.front();
   for (std::size_t k = 0; k < std::min(tries, all.size()); ++k) {
     if (k > 0 && all[k].separation < deeper * best.separation - tolerance) break;

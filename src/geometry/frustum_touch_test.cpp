@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <ostream>
 #include <random>
 #include <string>
@@ -401,6 +402,45 @@ TEST(FrustumTouch, rims_meet_beside_the_direction_of_an_end) {
       for (const Touch<double>& t : closed(p, at)) deepest = std::max(deepest, -t.gap);
       EXPECT_NEAR(deepest, -largest_separation(p, at), 1e-7) << outside << ", " << draw;
     }
+  }
+}
+
+// As a rim passes over the end of a mantle, both rims meet in directions between that of the mantle and the next one,
+// in a wedge that may be as narrow as the axes are parallel, or beside that of an end. The force goes on smoothly.
+TEST(FrustumTouch, force_is_continuous_where_a_rim_passes_over_another_one) {
+  struct Pass {
+    Frustum I, J;
+    Vector p, x, z;
+  };
+  for (const Pass& pass : {Pass{{-0.714553499, 0.270739641, 0, 0.270739641},
+                                {-0.89134934, 0.377780827, 0, 0.377780827},
+                                {0.269582106, -0.582928042, 0.029501708},
+                                {-0.901620774, 0.430108672, 0.0456783273},
+                                {0.137013506, 0.183843742, 0.973359532}},
+                           {{-0.802923515, 0.434335277, 0, 0.434335277},
+                            {0, 0.226729362, 0.815357208, 0.226729362},
+                            {0.255127128, 0.318944492, 0.371604636},
+                            {0.196759723, -0.313247806, -0.929064811},
+                            {-0.0874012325, -0.949419831, 0.301600743}}}) {
+    const Pair p{"", {pass.I}, {pass.J}};
+    const Vector z = normalized(pass.z), x = normalized(pass.x - dot(pass.x, z) * z);
+    std::optional<Vector> before;
+    for (double shift = -2e-4; shift < 4e-4; shift += 1e-6) {
+      const Frame at{pass.p + Vector{0, 0, shift}, x, cross(z, x), z};
+      const auto list = closed(p, at);
+      ASSERT_EQ(list.size(), 1u) << shift;
+      EXPECT_EQ(list[0].weight, 1) << shift;
+      const auto sum = resultant(p, at);
+      const Vector F{sum[0], sum[1], sum[2]};
+      if (before) {
+        EXPECT_LT(norm(F - *before), 0.01 * norm(F)) << shift;
+      }
+      before = F;
+    }
+    const Frame middle{pass.p + Vector{0, 0, 1e-4}, x, cross(z, x), z};
+    EXPECT_NEAR(closed(p, middle)[0].gap, largest_separation(p, middle), 1e-6);
+    const Frame on_the_rim{pass.p, x, cross(z, x), z};
+    EXPECT_EQ(closed(p, on_the_rim)[0].weight, 1);
   }
 }
 

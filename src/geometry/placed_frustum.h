@@ -31,11 +31,14 @@ PlacedBox<double> plain(const PlacedBox<T>& b) {
 
 // The point of a circle that is farthest in a direction; its centre where all are as far.
 inline Vector farthest(const Circle<double>& c, const Vector& n) {
-  const double x = dot(c.first, n), y = dot(c.second, n), size = std::hypot(x, y);
+  const double x = dot(c.first, n), y = dot(c.second, n), size = std::sqrt(x * x + y * y);
   return size > 0 ? c.centre + (c.radius / size) * (x * c.first + y * c.second) : c.centre;
 }
 inline bool upper_reaches(const PlacedFrustum<double>& f, const Vector& n) {
-  return dot(farthest(f.rim(true), n) - farthest(f.rim(false), n), n) > 0;
+  const double rise = dot(f.at.z, n) * (f.faces.f.high - f.faces.f.low), wider = f.radius(true) - f.radius(false);
+  if (wider == 0) return rise > 0;
+  const double x = dot(f.at.x, n), y = dot(f.at.y, n);
+  return rise + wider * std::sqrt(x * x + y * y) > 0;
 }
 inline Vector farthest(const PlacedFrustum<double>& f, const Vector& n) {
   return farthest(f.rim(upper_reaches(f, n)), n);
