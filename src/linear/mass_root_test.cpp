@@ -202,5 +202,25 @@ TEST(BodySource, starts_with_the_velocities_that_are_stated) {
   }
 }
 
+// Bent, stretched and twisted between all nodes, and moving in some other way before: nothing is strained.
+TEST(BodySource, of_a_deformed_beam_starts_as_if_rigid) {
+  Weighed w(steel + beam);
+  for (std::size_t b = 1; b < w.point.poses.size(); ++b) {
+    const auto k = static_cast<double>(b);
+    w.point.poses[b].r += Vector{0.1 * k, -0.05 * k * k, 0.2 * k};
+    w.point.poses[b].R = rotation_exponential({0.2 * k, 0.3, -0.1 * k * k}) * w.point.poses[b].R;
+  }
+  const BodySource& body = *w.system->bodies().front();
+  const Motion motion = w.at();
+  const auto work = [&](const Eigen::VectorXd& v) { return body.own_work(motion, PartialBy::damping, v).value(); };
+  const Eigen::VectorXd before = w.any_motion().real();
+  Eigen::VectorXd start = before;
+  body.start_velocity(motion, [](std::string_view argument) { return argument == "VY"; },
+                      {start.data(), static_cast<std::size_t>(start.size())});
+  EXPECT_GT(start.norm(), 1);
+  EXPECT_GT(work(before), 1);
+  EXPECT_LT(work(start), 1e-13 * work(before));
+}
+
 }  // namespace
 }  // namespace dynalin::mass_root_test

@@ -204,6 +204,34 @@ TEST_F(RestatedStart, a_beam_begins_as_a_whole_and_no_other_does) {
   expect_near(of(p, "FE_PART/3 node 3", "velocity"), {4, 0, 0}, 1e-3);
 }
 
+// Bent, stretched and swinging by then: moved as if rigid, its slopes turn and its middles have no rate.
+TEST_F(RestatedStart, a_beam_that_swings_begins_as_if_rigid) {
+  const std::string push =
+      "VFORCE/1, I=21, JFLOAT=2, RM=1, FX=-STEP(TIME,0,40,0.1,0)\\FY=STEP(TIME,0,40,0.1,0)\\FZ=9\n";
+  for (const std::string type : {"3DBEAM", "2DBEAMXY"}) {
+    SCOPED_TRACE(type);
+    const std::string dataset = beam_model(StraightBeam{.elements = 2, .type = type}.text() + push);
+    const std::string swing = "SIMULATE/DYNAMICS, END=0.2\n";
+    const auto before = after(dataset, swing);
+    for (const auto& [edit, spin] : {std::pair{"FE_PART/2, VX=0\n", 0.0}, {"FE_PART/2, WM=1, WZ=2\n", 2.0}}) {
+      const auto p = after(dataset, swing + edit);
+      const Numbers value = shape(p, "value"), rate = shape(p, "rate"), was = shape(before, "rate");
+      ASSERT_EQ(rate.size(), type == "3DBEAM" ? 15u : 9u);
+      EXPECT_EQ(value, shape(before, "value"));
+      for (std::size_t k = 0; k < rate.size(); ++k) {
+        const std::size_t axis = k % 3;
+        const double turned = k >= 9 || axis == 2 ? 0 : axis == 0 ? -spin * value[k + 1] : spin * value[k - 1];
+        EXPECT_NEAR(rate[k], turned, 1e-14) << k;
+      }
+      if (type == "3DBEAM") {
+        EXPECT_GT(std::abs(was[11]), 0.1);
+      }
+      expect_near(of(p, "FE_PART/2 node 1", "velocity"), {0, 0, 0}, 1e-12);
+      expect_near(of(p, "FE_PART/2 node 2", "angular_velocity"), {0, 0, spin}, 1e-12);
+    }
+  }
+}
+
 const std::string driven =
     "driven\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
     "JOINT/1, TRANSLATIONAL, I=20, J=1\nPART/3, MASS=1, CM=30, IP=1,1,1, VX=4\nMARKER/30\n";

@@ -88,6 +88,9 @@ void NodalBody::start_velocity(const Motion& motion, const Holds& holds, std::sp
     put(layout_->body_coordinate_count + static_cast<std::int32_t>(s),
         cross(w, Vector{motion.extra[s], motion.extra[s + 1], motion.extra[s + 2]}));
   }
+  // Middles are turned against what turns with them.
+  for (std::size_t e = 0; !beam_->plane && e < elements(); ++e)
+    put(layout_->body_coordinate_count + static_cast<std::int32_t>(beam_->middle(e)), {});
 }
 
 }  // namespace dynalin
