@@ -7,6 +7,7 @@
 
 #include "linear/stability.h"
 #include "study/model_source.h"
+#include "system/entry_keys.h"
 #include "system/operating_state.h"
 
 namespace dynalin {
@@ -18,6 +19,21 @@ FoundPoint found(StudyPoint before, OperatingPoint values, Findings findings) {
   for (const std::int32_t r : findings.redundant_rows) rows.push_back(before.system->row_text(r));
   return {{std::move(before.system), std::move(values), true, true, {}, std::nullopt, std::move(rows)},
           std::move(findings.warnings)};
+}
+
+// The shapes of bodies that have none of as many coordinates in the model before: these begin as they are stated.
+Restated begun_shapes(const Layout& before, const Layout& now) {
+  std::vector<bool> goes_on(now.extras.size(), false);
+  for (const auto& [a, b] : matches(extra_keys(before), extra_keys(now)))
+    goes_on[b] = before.extras[a].count == now.extras[b].count;
+  Restated begun;
+  for (std::size_t k = 0; k < now.extras.size(); ++k) {
+    const ExtraBlock& e = now.extras[k];
+    if (goes_on[k] || !e.is_shape()) continue;
+    const Restated::Element body(e.label.statement, e.label.id);
+    for (const char* start : {"DMODE", "VMODE"}) begun.state(body, start);
+  }
+  return begun;
 }
 
 }  // namespace
@@ -71,6 +87,7 @@ StudyPoint continued(const StudyPoint& before, std::shared_ptr<const System> edi
   point.started = true;
   point.restated = before.restated;
   point.restated.append(restated);
+  point.restated.append(begun_shapes(before.system->layout(), point.system->layout()));
   return point;
 }
 

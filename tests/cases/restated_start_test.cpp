@@ -163,6 +163,51 @@ TEST_F(RestatedShape, the_velocity_of_a_body_begins_and_its_shape_goes_on) {
   expect_near(shape(p, "rate"), {0, 0.1});
 }
 
+// Without its modes for a while: what has no shape has none to go on with.
+TEST_F(RestatedShape, a_body_that_takes_its_modes_again_begins_with_the_shape_that_is_stated) {
+  const std::string stated = "FLEX_BODY/2, DMODE=0.02,0.01, VMODE=0.3,0.1\n", next = "SIMULATE/DYNAMICS, END=2\n";
+  for (const auto& [rigid, modal] : {std::pair{"REPRESENTATION=RIGID\n", "REPRESENTATION=MODAL\n"},
+                                     {"INVARIANTS=T:T:F:F:F:F:T:F:F\n", "INVARIANTS=T:T:T:T:T:T:T:T:T\n"}}) {
+    SCOPED_TRACE(rigid);
+    const std::string to_rigid = std::string("FLEX_BODY/2, ") + rigid, to_modal = std::string("FLEX_BODY/2, ") + modal;
+    const auto p = after(body(""), stated + fall + to_rigid + next + to_modal);
+    expect_near(shape(p, "value"), {0.02, 0.01}, 1e-15);
+    expect_near(shape(p, "rate"), {0.3, 0.1}, 1e-15);
+    const auto moving = after(body(""), stated + fall + to_rigid + next);
+    EXPECT_LT(of(moving, "FLEX_BODY/2", "velocity")[1], -9);
+    expect_near(of(p, "FLEX_BODY/2", "velocity"), of(moving, "FLEX_BODY/2", "velocity"), 1e-12);
+    expect_near(of(p, "FLEX_BODY/2", "position"), of(moving, "FLEX_BODY/2", "position"), 1e-12);
+    // One that has its modes goes on with them.
+    const auto swinging = after(body(""), stated + fall), same = after(body(""), stated + fall + to_modal);
+    EXPECT_EQ(shape(same, "rate"), shape(swinging, "rate"));
+    EXPECT_EQ(shape(same, "value"), shape(swinging, "value"));
+  }
+}
+
+TEST_F(RestatedShape, what_a_file_says_of_the_start_begins_with_its_modes) {
+  const std::string text = read_file(folder_ / "body.fem");
+  const std::size_t places = text.find("**\n** RECORD GROUP 5");
+  ASSERT_NE(places, std::string::npos);
+  write("body.fem", text.substr(0, places) + "**\n** RECORD GROUP 3\n 0.02 0.01\n**\n** RECORD GROUP 4\n 0.3 0.1\n" +
+                        text.substr(places));
+  const std::string rigid = fall + "FLEX_BODY/2, REPRESENTATION=RIGID\n", modal = "FLEX_BODY/2, REPRESENTATION=MODAL\n";
+  const auto p = after(body(""), rigid + "SIMULATE/INITIAL\n" + modal);
+  expect_near(shape(p, "value"), {0.02, 0.01}, 1e-15);
+  expect_near(shape(p, "rate"), {0.3, 0.1}, 1e-15);
+  // Nothing has been without them here.
+  EXPECT_EQ(shape(after(body(""), rigid + modal), "value"), shape(after(body(""), fall), "value"));
+}
+
+TEST_F(RestatedShape, what_is_held_of_the_shape_is_held_when_a_body_takes_its_modes_again) {
+  const std::string held =
+      body("MARKER/6, PART=1, QP=1,0,0, REULER=135D,90D,0\nJOINT/1, FIXED, I=21, J=1\nJPRIM/1, INPLANE, I=22, J=6\n");
+  const auto p = after(held,
+                       "FLEX_BODY/2, MODAL_EXACT_DISP=1, MODAL_EXACT_VEL=1, DMODE=0.02,0, VMODE=0.3,0\n"
+                       "FLEX_BODY/2, REPRESENTATION=RIGID\nSIMULATE/INITIAL\nFLEX_BODY/2, REPRESENTATION=MODAL\n");
+  expect_near(shape(p, "value"), {0.02, -0.02}, 1e-9);
+  expect_near(shape(p, "rate"), {0.3, -0.3}, 1e-9);
+}
+
 // Swung to some side, it does not hang as drawn again.
 TEST_F(RestatedShape, a_pendulum_goes_on_from_where_it_has_swung) {
   const std::string hinged = body("JOINT/1, SPHERICAL, I=21, J=1\nVARIABLE/1, FUNCTION=DX(22,1)\n");
