@@ -15,9 +15,10 @@ namespace dynalin {
 
 namespace {
 
-constexpr double balance = 1e-6;   // of the forces at play
-constexpr double unseen = 1e-9;    // turn beside the slowest mode, acceleration beside gravity and what that mode does
-constexpr double roundings = 100;  // that forces may be off: the estimate counts each number once
+constexpr double balance = 1e-6;    // of the forces at play
+constexpr double unseen = 1e-9;     // turn beside the slowest mode, acceleration beside gravity and what that mode does
+constexpr double roundings = 100;   // that forces may be off: the estimate counts each number once
+constexpr double rounding = 1e-12;  // what solving may leave of one movement beside the others
 
 // Of the slowest mode that is not a structural zero [rad/time]; 0 if there is none.
 double slowest_mode(const EigenSolution& modes) {
@@ -52,8 +53,19 @@ class Unbalanced {
 
 struct Movement {
   double acceleration = 0, turning = 0, spin_up = 0, deformation = 0;
+  double of_shape = 0;  // deformation as far as it moves anything [length/time²]
 
   double size(double length) const { return acceleration + length * (turning * turning + spin_up); }
+  // The same, and 0 for what is rounding.
+  Movement seen(double length) const {
+    const double least = rounding * std::max(size(length), of_shape);
+    Movement m = *this;
+    if (acceleration <= least) m.acceleration = 0;
+    if (length * turning * turning <= rounding * least) m.turning = 0;
+    if (length * spin_up <= least) m.spin_up = 0;
+    if (of_shape <= least) m.deformation = 0;
+    return m;
+  }
 };
 
 std::vector<Movement> movements(const System& system, const Motion& motion) {
@@ -97,8 +109,11 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
       if (owner == layout.bodies.end()) continue;
       const auto b = static_cast<std::size_t>(owner - layout.bodies.begin());
       const auto first = motion.extra_acceleration.begin() + static_cast<std::ptrdiff_t>(layout.extra_index(e.offset));
-      for (auto q = first; q != first + e.count; ++q)
-        movement[b].deformation = std::max(movement[b].deformation, std::abs(*q));
+      for (std::int32_t k = 0; k < e.count; ++k) {
+        const double q = std::abs(first[k]);
+        movement[b].deformation = std::max(movement[b].deformation, q);
+        movement[b].of_shape = std::max(movement[b].of_shape, q * L / system.coordinate_scale(e.offset + k));
+      }
       counts[b] = counts[b] || movement[b].deformation > 0;
     }
   }
@@ -109,7 +124,7 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
     if (most == 0 || movement[b].size(L) > movement[most].size(L) * (1 + 1e-9)) most = b;
   }
   if (most == 0) return;
-  const Movement& m = movement[most];
+  const Movement m = movement[most].seen(L);
   const ElementLabel& part = layout.bodies[most].label;
   const bool is_node =
       std::ranges::count_if(layout.bodies, [&](const BodyBlock& b) { return b.label.element() == part.element(); }) > 1;

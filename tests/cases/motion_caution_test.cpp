@@ -63,6 +63,21 @@ TEST_F(MotionCaution, of_a_shape_that_accelerates) {
   EXPECT_THAT(remarks(model, "SIMULATE/STATICS\nLINEAR/EIGENSOL\n"), ::testing::Not(::testing::HasSubstr(code)));
 }
 
+// Bent and free: what is left of the acceleration of its mass centre is rounding, and looks like none.
+TEST_F(MotionCaution, has_no_rounding_among_its_numbers) {
+  const std::vector<FlexibleNode> nodes = {{1, {0, 0, 0}, 0.7, {.1, .1, .1}, {{0.3, 0.1, 0}}, {{0, 0, 0}}},
+                                           {2, {1, 0, 0}, 0.3, {.1, .1, .1}, {{0.7, -0.2, 0}}, {{0, 0, 0}}},
+                                           {3, {2, 0.3, 0}, 0.6, {.1, .1, .1}, {{-0.1, 0.9, 0.4}}, {{0, 0, 0}}}};
+  write("body.fem", modal_text(nodes, Eigen::MatrixXd::Constant(1, 1, 90)));
+  for (const std::string at : {"DMODE=0.1", "DMODE=0.07, REULER=0.3,0.4,0.5", "DMODE=1E-9, REULER=0.3,0.4,0.5"}) {
+    const std::string model =
+        "Free\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nFLEX_BODY/2, MNF_FILE=body.fem, " + at + "\nEND\n";
+    EXPECT_THAT(remarks(model), ::testing::HasSubstr("(acceleration of its mass centre 0 meter/s², angular velocity 0 "
+                                                     "rad/s, angular acceleration"))
+        << at;
+  }
+}
+
 // Matrices hold for an instant as eigenvalues do.
 TEST_F(MotionCaution, of_matrices) {
   const std::string pendulum =
