@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/common_normal.h"
 #include "geometry/flat_body.h"
 #include "geometry/looking_side.h"
 #include "geometry/low_on_circle.h"

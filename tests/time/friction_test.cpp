@@ -156,7 +156,7 @@ TEST(Friction, a_block_stops_and_stays_on_a_slope) {
 TEST(Friction, of_a_symmetric_mechanism_leads_it_like_its_middle) {
   using namespace symmetric;
   for (const Placed& place : placements) {
-    for (const auto& model : {slider, hinge, sleeve}) {
+    for (const auto& model : {symmetric::slider, symmetric::hinge, symmetric::sleeve}) {
       const std::string reads = "VARIABLE/1, FUNCTION=DX(30,4,4)\nVARIABLE/2, FUNCTION=DZ(30,4,4)\n";
       const in_time::Run run{.end = 0.5, .steps = 50, .error = 1e-8};
       const Course beside = led_through_time(model(place, 0.3, reads), run);
