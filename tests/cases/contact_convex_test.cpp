@@ -6,28 +6,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/run.h"
+#include "cases/contacts.h"
 
 namespace dynalin::cases::contact_convex_test {
 namespace {
+
+using namespace contacts;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
-const std::string law = "IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=30, DMAX=1E-5\n";
-const std::string rubs =
-    "COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
-    "FRICTION_TRANSITION_VELOCITY=1, ";
-
-// A closed outline in the plane of x and y, drawn along z of its marker.
-std::string extrusion(int id, int marker, const std::string& points, int count, double length) {
-  return fmt::format(
-      "MATRIX/{0}, FULL=RORDER, ROWS={1}, COLUMNS=3, VALUES={2}\nCURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, ORDER=2\n"
-      "GRAPHICS/{0}, EXTRUSION, CID={0}, CRM={3}, LENGTH={4}\n",
-      id, count, points, marker, length);
-}
 // From a marker along its x, y and z.
 std::string crate(int id, int marker, double x, double y, double z) {
   return extrusion(id, marker, fmt::format("0,0,0, {0},0,0, {0},{1},0, 0,{1},0, 0,0,0", x, y), 5, z);
@@ -36,28 +25,7 @@ std::string box(int id, int marker, double x, double y, double z) {
   return fmt::format("GRAPHICS/{}, BOX, CORNER={}, X={}, Y={}, Z={}\n", id, marker, x, y, z);
 }
 
-class ContactConvex : public Cases {
- protected:
-  static std::vector<std::complex<double>> sorted(std::vector<std::complex<double>> v) {
-    std::ranges::sort(
-        v, [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
-    return v;
-  }
-  std::vector<std::complex<double>> values(const std::string& model, const std::string& before = "",
-                                           const std::string& start = head) const {
-    const RunResult r = run(start + model + "END\n", before + "LINEAR/EIGENSOL\n");
-    EXPECT_EQ(r.status, 0) << r.err;
-    if (r.status != 0) return {};
-    return sorted(r.eigenvalues(r.json.at("results").size() - 1));
-  }
-  static void expect_same(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b,
-                          double tolerance = 1e-9) {
-    ASSERT_EQ(a.size(), b.size());
-    ASSERT_FALSE(a.empty());
-    EXPECT_GT(std::abs(a.back()), 1);
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), tolerance * std::abs(a.back())) << k;
-  }
-};
+class ContactConvex : public ContactCases {};
 
 // On a slab that reaches from −1 to 1.
 std::string on_slab(bool slab_of_facets, bool crate_of_facets, const std::string& pose, bool exchanged = false,

@@ -7,16 +7,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/run.h"
+#include "cases/contacts.h"
 
 namespace dynalin::cases::contact_facets_test {
 namespace {
 
-const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
-const std::string law = "IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=30, DMAX=1E-5\n";
-const std::string rubs =
-    "COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
-    "FRICTION_TRANSITION_VELOCITY=1, ";
+using namespace contacts;
 
 // A box as text of STL, from the origin.
 std::string stl_of_box(double x, double y, double z) {
@@ -44,23 +40,8 @@ std::string stl_of_box(double x, double y, double z) {
   return text + "endsolid lump\n";
 }
 
-class ContactFacets : public Cases {
+class ContactFacets : public ContactCases {
  protected:
-  std::vector<std::complex<double>> values(const std::string& model, const std::string& before = "") const {
-    const RunResult r = run(head + model + "END\n", before + "LINEAR/EIGENSOL\n");
-    EXPECT_EQ(r.status, 0) << r.err;
-    if (r.status != 0) return {};
-    auto v = r.eigenvalues(r.json.at("results").size() - 1);
-    std::ranges::sort(
-        v, [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
-    return v;
-  }
-  static void expect_same(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b) {
-    ASSERT_EQ(a.size(), b.size());
-    ASSERT_FALSE(a.empty());
-    EXPECT_GT(std::abs(a.back()), 1);
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), 1e-9 * std::abs(a.back())) << k;
-  }
   void expect_error(const std::string& model, const std::string& what) const {
     const RunResult r = run(head + model + "END\n", "LINEAR/EIGENSOL\n");
     EXPECT_EQ(r.status, 1);

@@ -6,26 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/run.h"
+#include "cases/contacts.h"
 
 namespace dynalin::cases::contact_flat_test {
 namespace {
 
+using namespace contacts;
+
 using ::testing::HasSubstr;
 
-const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
-const std::string law = "IMPACT, STIFFNESS=1E4, EXPONENT=1, DAMPING=30, DMAX=1E-5\n";
-const std::string rubs =
-    "COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
-    "FRICTION_TRANSITION_VELOCITY=1, ";
-
-// A closed outline in the plane of x and y, drawn along z of its marker.
-std::string extrusion(int id, int marker, const std::string& points, int count, double length) {
-  return fmt::format(
-      "MATRIX/{0}, FULL=RORDER, ROWS={1}, COLUMNS=3, VALUES={2}\nCURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, ORDER=2\n"
-      "GRAPHICS/{0}, EXTRUSION, CID={0}, CRM={3}, LENGTH={4}\n",
-      id, count, points, marker, length);
-}
 // From −1 to 1 and down from 0, with a point more on each side of its outline or without.
 const std::string slab_of_facets =
     "MARKER/5, PART=1, QP=-1,-1,-0.5\n" +
@@ -42,25 +31,7 @@ const std::string egg = "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.8, YSCALE=0.6, ZS
                   ring = "GRAPHICS/2, TORUS, CM=3, MAJOR_RADIUS=0.3, MINOR_RADIUS=0.1\n",
                   tub = "GRAPHICS/2, FRUSTUM, CM=3, LENGTH=0.6, BOTTOM=0.2, TOP=0.3\n";
 
-class ContactFlat : public Cases {
- protected:
-  std::vector<std::complex<double>> values(const std::string& model, const std::string& before = "") const {
-    const RunResult r = run(head + model + "END\n", before + "LINEAR/EIGENSOL\n");
-    EXPECT_EQ(r.status, 0) << r.err;
-    if (r.status != 0) return {};
-    auto v = r.eigenvalues(r.json.at("results").size() - 1);
-    std::ranges::sort(
-        v, [](auto a, auto b) { return std::pair(std::abs(a), a.imag()) < std::pair(std::abs(b), b.imag()); });
-    return v;
-  }
-  static void expect_same(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b,
-                          double tolerance = 1e-9) {
-    ASSERT_EQ(a.size(), b.size());
-    ASSERT_FALSE(a.empty());
-    EXPECT_GT(std::abs(a.back()), 1);
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LE(std::abs(a[k] - b[k]), tolerance * std::abs(a.back())) << k;
-  }
-};
+class ContactFlat : public ContactCases {};
 
 }  // namespace
 
