@@ -73,8 +73,6 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
     const std::size_t n = f.component_count();
     Placed p{&f, &layout.marker(f.i), &layout.marker(f.j), static_cast<std::int32_t>(layout.algebraic.size()), -1, -1,
              -1};
-    p.rounding = layout.add_memory(labels[k], "rounding of the force");
-    layout.add_memory(labels[k], "rounding of the moment");
     for (std::size_t c = 0; c < n; ++c) layout.add_algebraic(labels[k], n == 1 ? 0 : static_cast<std::int32_t>(c) + 1);
     if (f.law.has_bristles()) {
       if (f.joint_acts) p.first_state = static_cast<std::int32_t>(layout.states.size());
@@ -84,6 +82,8 @@ JointFrictionKernel::JointFrictionKernel(const std::vector<JointFriction>& eleme
       p.first_memory = static_cast<std::int32_t>(layout.memory.size());
       for (const double x : FrictionReference::of(f.drawn, {})) layout.add_memory(labels[k], "reference", x);
     }
+    p.rounding = layout.add_memory(labels[k], "rounding of the force");
+    layout.add_memory(labels[k], "rounding of the moment");
     placed_.push_back(p);
   }
 }
