@@ -77,6 +77,15 @@ std::size_t frustum_flat_touches(const ConvexBody& J) {
   for (const ConvexBody::Face& f : J.faces()) most = std::max(most, f.corners.size());
   return 7 + 4 * most + std::min(J.corners().size() + J.edges().size(), solid::most_beside);
 }
+bool jumps_at_corners(const ConvexBody& J) {
+  const auto is_shallow = [&](ConvexBody::Index e) {
+    const ConvexBody::Edge& edge = J.edges()[e];
+    return dot(J.faces()[edge.left].normal, J.faces()[edge.right].normal) > one_side;
+  };
+  for (ConvexBody::Index c = 0; c < J.corners().size(); ++c)
+    if (std::ranges::all_of(J.edges_at(c), is_shallow)) return true;
+  return false;
+}
 template <class T>
 void touch_frustum(const solid::Frustum& I, const RelativeFrame<T>& at, const ConvexBody& J, std::span<Touch<T>> out) {
   solid::touch(solid::PlacedFrustum<T>{solid::FrustumFaces(I), at}, solid::FlatBody{J}, out);

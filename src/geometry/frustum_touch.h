@@ -17,6 +17,9 @@ inline constexpr std::size_t frustum_touches = 14;
 // As with a box whose faces have as many corners as the face that has most, and all corners and edges beside it, or
 // some hundreds of them; of more the last one is not defined.
 std::size_t frustum_flat_touches(const ConvexBody&);
+// Whether it has corners that a mantle passes over in a jump: of facets that go on from each to the next in bends of
+// less than 45 degrees, such as those of a dome. Then a motion does not keep its energy.
+bool jumps_at_corners(const ConvexBody&);
 
 template <class T>
 void touch_frustum(const solid::Frustum& I, const RelativeFrame<T>& I_from_J, const solid::Box& J, std::span<Touch<T>>);

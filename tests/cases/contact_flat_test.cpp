@@ -120,4 +120,36 @@ TEST_F(ContactFlat, what_is_not_convex_and_cavities_are_refused_by_name) {
   EXPECT_THAT(said(slab, drum, "JFLIP_GEOMETRY=1, "), HasSubstr("the inside of a convex body of facets"));
 }
 
+// Of a mantle on a dome the force jumps from edge to edge, which is said before anything runs; on prisms it does not.
+TEST_F(ContactFlat, of_a_mantle_on_a_dome_of_facets_is_warned_of) {
+  const double g = 1.6180339887498949;
+  std::string ball;
+  for (const auto& [x, y, z] : std::vector<std::array<double, 3>>{{-1, g, 0},
+                                                                  {1, g, 0},
+                                                                  {-1, -g, 0},
+                                                                  {1, -g, 0},
+                                                                  {0, -1, g},
+                                                                  {0, 1, g},
+                                                                  {0, -1, -g},
+                                                                  {0, 1, -g},
+                                                                  {g, 0, -1},
+                                                                  {g, 0, 1},
+                                                                  {-g, 0, -1},
+                                                                  {-g, 0, 1}})
+    ball += fmt::format("v {:.17g} {:.17g} {:.17g}\n", 0.2 * x, 0.2 * y, 0.2 * z);
+  for (const char* facet :
+       {"1 12 6", "1 6 2", "1 2 8", "1 8 11", "1 11 12", "2 6 10", "6 12 5", "12 11 3", "11 8 7", "8 2 9",
+        "4 10 5", "4 5 3", "4 3 7", "4 7 9",  "4 9 10",  "5 10 6", "3 5 12", "7 3 11",  "9 7 8",  "10 9 2"})
+    ball += std::string("f ") + facet + "\n";
+  write("ball.obj", ball);
+  const auto said = [&](const std::string& under, const std::string& shape) {
+    return run(head + under + on_it(shape, "QG=0,0,0.6") + "END\n", "LINEAR/EIGENSOL\n").err;
+  };
+  const std::string dome = "GRAPHICS/1, EXTERNAL, RM=1, FILE=ball.obj\n";
+  EXPECT_THAT(said(dome, drum), HasSubstr("CONTACT/1 lets GRAPHICS/2 and GRAPHICS/1 touch: where a mantle passes over "
+                                          "corners of facets in shallow bends the force jumps"));
+  EXPECT_THAT(said(dome, egg), ::testing::Not(HasSubstr("jumping-contact")));
+  EXPECT_THAT(said(slab_of_facets, drum), ::testing::Not(HasSubstr("jumping-contact")));
+}
+
 }  // namespace dynalin::cases::contact_flat_test

@@ -146,6 +146,7 @@ TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
       "large-eigensolution",  // selected_modes_test
       "reloaded-in-part",     // save_reload_test
       "touching-contact",     // contact_test
+      "jumping-contact",      // contact_flat_test
       "kink-of-routine",      // routines/user_routine_test
       "wrong-derivative",     // the same
       "far-bent-body",        // flex_body_test

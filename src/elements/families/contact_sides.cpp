@@ -8,6 +8,7 @@
 
 #include "elements/families/markers.h"
 #include "geometry/contact_shape.h"
+#include "geometry/frustum_touch.h"
 
 namespace dynalin {
 
@@ -129,12 +130,29 @@ std::string name_of(const solid::Side& side) {
   return side.reversed ? fmt::format("the inside of {}", name) : std::string(name);
 }
 
+// Whether forces between a frustum and a body of facets jump where its mantle passes over a corner.
+bool jumps(const solid::Side& a, const solid::Side& b) {
+  const auto* facets = std::get_if<solid::Polyhedron>(&b.shape);
+  return std::holds_alternative<solid::Frustum>(a.shape) && facets && facets->body->convex() &&
+         jumps_at_corners(*facets->body->convex());
+}
+
 bool check_pairs(const Model& model, const ElementLabel& label, const ContactSides& sides, const ContactForce& f,
                  Diagnostics& diagnostics) {
   for (std::size_t a = 0; a < f.I.size(); ++a) {
     for (std::size_t b = 0; b < f.J.size(); ++b) {
-      if (touch_count(f.I[a].side, f.J[b].side) > 0) continue;
       const ListedShape &I = sides[0][a], &J = sides[1][b];
+      if (touch_count(f.I[a].side, f.J[b].side) > 0) {
+        if (jumps(f.I[a].side, f.J[b].side) || jumps(f.J[b].side, f.I[a].side)) {
+          diagnostics.warning(
+              "jumping-contact", J.at,
+              fmt::format("{} lets {} and {} touch: where a mantle passes over corners of facets in shallow bends the "
+                          "force jumps, and impacts and rolling gain or lose energy",
+                          label.text(), model.label(I.graphics).text(), model.label(J.graphics).text()),
+              "an ELLIPSOID or spheres in the place of either keep it");
+        }
+        continue;
+      }
       if (solid::is_profile(f.I[a].side) != solid::is_profile(f.J[b].side)) {
         const bool curve_is_I = solid::is_profile(f.I[a].side);
         diagnostics.error("contact-shape", J.at,
