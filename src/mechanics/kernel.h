@@ -53,7 +53,7 @@ class Kernel {
   // --- points ---------------------------------------------------------------------------------------
   // An accepted configuration: take over what the memory holds (turn counts).
   virtual void remember(const Motion&, Memory&) const {}
-  // Adds why elements yield no finite values or derivatives here.
+  // Adds why elements yield no finite values or derivatives here, or where functions that they read bend or jump.
   virtual void undefined_values(const Motion&, UndefinedValues&) const {}
   // A sentence on how a converged point lies outside of what an element describes, empty if it does not.
   virtual std::string domain_violation(const Motion&) const { return {}; }
