@@ -130,13 +130,13 @@ void Equations::settle() {
   for (Accumulator& a : matrices_) a.settle();
 }
 
-void Equations::apply(BodyId body, const Vector& force, const Vector& moment, double factor) {
+void Equations::apply_inertia(BodyId body, const Vector& force, const Vector& moment, const Cancelled& cancelled) {
   const BodyBlock& block = layout_->body(body);
   if (block.count == 0) return;
   for (std::int32_t k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    add_residual(block.offset + k, factor * force[at]);
-    if (block.turns()) add_residual(block.offset + 3 + k, factor * moment[at]);
+    add_residual(block.offset + k, force[at], std::abs(force[at]) + cancelled.force);
+    if (block.turns()) add_residual(block.offset + 3 + k, moment[at], std::abs(moment[at]) + cancelled.moment);
   }
 }
 

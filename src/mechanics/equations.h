@@ -217,8 +217,12 @@ class Equations {
     residual_[static_cast<std::size_t>(row)] += value;
     magnitude_[static_cast<std::size_t>(row)] += size;
   }
-  // Force and moment about the BCS origin that act on a body, global axes.
-  void apply(BodyId body, const Vector& force, const Vector& moment, double factor = -1.0);
+  // Force and moment about the BCS origin that act against a body's inertia, global axes. A component has been added up
+  // from itself and what cancels in any of them, `cancelled` in size.
+  struct Cancelled {
+    double force, moment;
+  };
+  void apply_inertia(BodyId body, const Vector& force, const Vector& moment, const Cancelled& cancelled);
   // The same of a force at a point, `arm` from the BCS origin, and a torque: what makes the moment may cancel, and
   // so may what the torque has been added up from, `cancelled` in size.
   void apply_at(BodyId body, const Vector& arm, const Vector& force, const Vector& torque, double cancelled = 0);

@@ -40,6 +40,28 @@ TEST(PairSizes, are_no_less_than_the_partials) {
   EXPECT_EQ(blocks, 4 + 3);  // with modes of the bodies
 }
 
+// A product with axes along those of the ground rounds nothing: what is soft along one of them stays exact beside what
+// is stiff along another. Aslant each entry has something of the stiffest in it.
+TEST(PairSizes, keep_directions_apart_along_the_ground) {
+  const Paths p;
+  PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  PairForce force;
+  force.force_on_position.origin_I = Matrix3::diagonal(1e6) + Matrix3{{0, 0, 0}, {0, 1 - 1e6, 0}, {0, 0, -1e6}};
+  PairBlock move;
+  move.kind = PairBlock::Kind::translation, move.moves = Matrix3::identity();
+  const Matrix3 aslant = sizes_by(pair, move, force).force;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) pair.axes_J(r, c) = Taylor(r == (c + 1) % 3 ? -1.0 : 0.0);
+  }
+  const Matrix3 along = sizes_by(pair, move, force).force;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(along(r, c), std::abs(force.force_on_position.origin_I(r, c)));
+      EXPECT_EQ(aslant(r, c), 1e6);
+    }
+  }
+}
+
 // A spring from J to I written in the axes of J: turning these changes nothing, and all but rounding cancels.
 TEST(PairSizes, tell_what_has_cancelled) {
   const Paths p;

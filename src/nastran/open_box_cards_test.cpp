@@ -273,6 +273,22 @@ TEST(OpenBoxCards, numbers_follow_the_ids_or_one_another) {
   EXPECT_EQ(*std::ranges::max_element(sequential), 500 + static_cast<std::int64_t>(found.size()) - 1);
 }
 
+TEST(OpenBoxCards, rigid_joints_have_the_ids_of_the_dataset_behind_their_offset) {
+  const Linearization of = linearization_of(
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, QP=0,-1,0\nMARKER/21\nJOINT/7, REVOLUTE, I=21, J=1\n"
+      "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, QP=0,-2,0\nMARKER/31, PART=3\nJOINT/12, FIXED, I=31, J=21\n");
+  ExportOptions options;
+  options.rjoint_offset = 2000;
+  const auto ids = [&] {
+    std::vector<std::int64_t> list;
+    for (const RigidJoint& j : box_of(of, options).rigid_joints) list.push_back(j.id);
+    return list;
+  };
+  EXPECT_THAT(ids(), ::testing::UnorderedElementsAre(2007, 2012));
+  options.use_adams_ids = false;
+  EXPECT_THAT(ids(), ::testing::UnorderedElementsAre(2000, 2001));
+}
+
 TEST(OpenBoxCards, unused_items_can_be_left_out_of_frequency_response) {
   const Linearization of = linearization_of(
       on_bushings("100,150,200", "MARKER/33, PART=3, QP=1,1,1\nSFORCE/5, TRANSLATIONAL, I=33, J=1, FUNCTION=TIME\n"));

@@ -8,9 +8,10 @@
 
 namespace dynalin {
 
-// Looks at two instants inside each step, and where the cubic through the four values has an extremum beyond zero, or
-// next to it. A function that is beyond zero for less than a third of a step and has more than one extremum in it may
-// still be missed.
+// Looks at two instants inside each step, where the cubic through the four values has an extremum beyond zero or next to
+// it, and where a function may reach zero that changes no faster than it does between the instants looked at: a gap
+// that is passed at a steady speed falls and rises again like a V, however narrow its dip. What comes and goes faster
+// than anything that was seen of it may still be missed.
 class HiddenCrossings {
  public:
   using Values = std::function<void(double t, std::span<double>)>;  // of all functions at an instant of the step
@@ -24,11 +25,21 @@ class HiddenCrossings {
   std::span<const int> crossed() const { return crossed_; }
 
  private:
+  // Values at a part of the step, 0 to 1.
+  struct Look {
+    double part;
+    std::vector<double> values;
+  };
+
   bool has_crossed(std::span<const double> values) const;
   std::vector<double> suspects(std::span<const double> at_end) const;
+  const Look& look(double part, double from, double length, const Values&);
+  std::optional<double> within_reach(double until) const;
   double closed_in(double from, double beyond, double tolerance, const Values&);
 
-  std::vector<double> before_, first_third_, second_third_, now_;
+  std::vector<double> before_, now_;
+  std::vector<Look> looks_;  // the first `looked_` in the order of their parts; what is behind is kept for the next step
+  std::size_t looked_ = 0;
   std::vector<int> crossed_;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace dynalin::hidden_crossings_test {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 struct Found {
   std::vector<double> times;
   std::vector<int> signs;
+  int looks = 0;
 };
 template <class Function>
 Found search(Function&& f, double from, double to) {
@@ -19,7 +21,7 @@ Found search(Function&& f, double from, double to) {
   search.begin({&begin, 1});
   Found found;
   for (double t = from; found.times.size() < 10;) {
-    const auto at = search.first(t, to, {&end, 1}, [&](double s, std::span<double> v) { v[0] = f(s); });
+    const auto at = search.first(t, to, {&end, 1}, [&](double s, std::span<double> v) { v[0] = f(s), ++found.looks; });
     if (!at) break;
     found.times.push_back(t = *at);
     found.signs.push_back(search.crossed()[0]);
@@ -47,6 +49,32 @@ TEST(HiddenCrossings, finds_all_of_a_step_in_their_order) {
 TEST(HiddenCrossings, leaves_what_comes_near_zero_and_what_begins_there) {
   EXPECT_TRUE(search([](double t) { return 1e-6 + (t - 0.5) * (t - 0.5); }, 0, 1).times.empty());
   EXPECT_TRUE(search([](double t) { return t; }, 0, 1).times.empty());
+}
+
+// The gap of two balls that pass each other at a steady speed: a dip of one part in 5 to 500 of the step.
+TEST(HiddenCrossings, finds_a_narrow_dip_of_what_falls_and_rises_steadily) {
+  for (const double step : {0.02, 0.3, 2.0}) {
+    for (const double at : {0.09, 0.2, 0.41, 0.5, 0.83, 0.91}) {
+      const auto gap = [&](double t) { return std::hypot(10 * (t - at * step), 0.015) - 0.02; };
+      const double half = 0.1 * std::sqrt(0.02 * 0.02 - 0.015 * 0.015);
+      const Found f = search(gap, 0, step);
+      // The second change may be left to who compares the ends.
+      ASSERT_FALSE(f.times.empty()) << step << " " << at;
+      EXPECT_NEAR(f.times[0], at * step - half, 1e-12);
+      if (f.times.size() > 1) {
+        EXPECT_NEAR(f.times[1], at * step + half, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(HiddenCrossings, looks_no_closer_at_what_is_out_of_reach) {
+  EXPECT_EQ(search([](double t) { return std::hypot(10 * (t - 0.4), 0.015) + 3; }, 0, 1).looks, 2);
+  EXPECT_EQ(search([](double t) { return 1 - 0.9 * t; }, 0, 1).looks, 2);
+  EXPECT_EQ(search([](double t) { return 1 / (1 + t); }, 0, 1).looks, 2);
+  const Found passes = search([](double t) { return std::hypot(10 * (t - 0.4), 0.021) - 0.02; }, 0, 1);
+  EXPECT_TRUE(passes.times.empty());
+  EXPECT_LT(passes.looks, 26);
 }
 
 TEST(HiddenCrossings, takes_a_sign_of_rounding_where_it_begins_for_what_follows) {

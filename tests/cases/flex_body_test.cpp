@@ -419,6 +419,29 @@ TEST_F(FlexBody, beyond_its_linear_modes_is_warned_of) {
   EXPECT_THAT(said(", DMODE=0.01,0, CHAR_LEN=0.001"), HasSubstr("far-bent-body"));
 }
 
+// The length that its bending is measured against is that of the body, wherever it is drawn.
+TEST_F(FlexBody, is_bent_far_from_a_tenth_of_its_length_on) {
+  const Vibration held = vibration(beam, 6);
+  const ReducedBody body = reduced(beam, held.shapes.leftCols(2));
+  const double length = norm(body.nodes.back().at - body.nodes.front().at);
+  double farthest = 0;
+  for (const FlexibleNode& n : body.nodes) farthest = std::max(farthest, norm(n.moves.front()));
+  for (const double beside : {0.0, 100.0}) {
+    std::vector<FlexibleNode> nodes = body.nodes;
+    for (FlexibleNode& n : nodes) n.at.y += beside;
+    write("beam.fem", modal_text(nodes, body.stiffness));
+    for (const double bent : {0.09, 0.11}) {
+      const RunResult r = run(fmt::format("Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=0,{}\nFLEX_BODY/2, "
+                                          "MNF_FILE=beam.fem, CRATIO=0, DMODE={:.17g},0\nMARKER/21, NODE_ID=1\n"
+                                          "JOINT/1, FIXED, I=21, J=1\nEND\n",
+                                          beside, bent * length / farthest),
+                              "LINEAR/EIGENSOL\n");
+      ASSERT_EQ(r.status, 0) << r.err;
+      EXPECT_EQ(r.err.find("far-bent-body") != std::string::npos, bent > 0.1) << r.err;
+    }
+  }
+}
+
 // Mass, its moment and inertia are those of a rigid body.
 TEST_F(FlexBody, of_three_invariants_is_a_part) {
   const Vibration held = vibration(beam, 6);

@@ -220,6 +220,26 @@ TEST(ContactInTime, boxes_that_tumble_into_each_other_keep_their_energy) {
 }
 
 // Two boxes of one size in space, a corner of the one beside an edge of the other: what one loses the other gets.
+// A small ball that flies past another one, at a distance at which they overlap for a thousandth of a step: whether it
+// is turned aside is no matter of how many outputs there are.
+TEST(ContactInTime, a_short_touch_in_a_long_step_is_found) {
+  double first = 0;
+  for (const int steps : {100, 20, 5, 1}) {
+    const Course c = led_through_time(
+        "Passing\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"
+        "PART/2, MASS=1, CM=2, IP=1E-4,1E-4,1E-4, QG=-1.165,0,0.015, VX=10\nMARKER/2\n"
+        "GRAPHICS/1, ELLIPSOID, CM=1, XSCALE=0.02, YSCALE=0.02, ZSCALE=0.02\n"
+        "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.02, YSCALE=0.02, ZSCALE=0.02\n"
+        "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E5, EXPONENT=1.5, DAMPING=0, DMAX=0.001\n"
+        "VARIABLE/1, FUNCTION=VZ(2)\nEND\n",
+        {0.3, steps, 1e-6});
+    ASSERT_TRUE(c.ok()) << c.failure;
+    if (first == 0) first = c.last(1);
+    EXPECT_GT(c.last(1), 0.05);
+    EXPECT_NEAR(c.last(1), first, 1e-5) << steps;
+  }
+}
+
 TEST(ContactInTime, boxes_that_meet_keep_their_momentum_and_spin) {
   std::string text =
       "Two boxes\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n"

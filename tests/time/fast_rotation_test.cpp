@@ -62,5 +62,33 @@ TEST(FastRotation, drives_late_in_time_are_followed) {
   }
 }
 
+// ω × J ω of a ball is rounding and nothing else; a body that is almost one has little more.
+TEST(FastRotation, a_ball_spins_about_one_axis_as_long_as_it_will) {
+  for (const double polar : {0.1, 0.1 * (1 + 1e-9)}) {
+    for (const char* held : {"", "JOINT/1, SPHERICAL, I=20, J=1\n"}) {
+      for (const char* spin : {"WZ=3", "WX=0.7, WY=-0.2", "WX=300, WY=400, WZ=50"}) {
+        const Course c = led_through_time(
+            fmt::format("t\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=0.1,0.1,{:.17g}, {}\nMARKER/20\n{}"
+                        "VARIABLE/1, FUNCTION=WM(20)\nEND\n",
+                        polar, spin, held),
+            {2, 300, 1e-6});
+        ASSERT_TRUE(c.ok()) << polar << held << spin << c.failure;
+        EXPECT_LT(c.drift(1), 1e-7 * c.largest(1)) << spin;
+      }
+    }
+  }
+}
+
+// So does a flexible body whose modes do not move what turns it.
+TEST(FastRotation, a_beam_of_finite_elements_spins_about_its_axis) {
+  const Course c = led_through_time(
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMATERIAL/1, DENSITY=7800, YOUNGS_MODULUS=2E11, "
+      "POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, NODE_LABELS=1,2,3, X=0,0.5,1, AREA=1E-2, IYY=8E-6, "
+      "IZZ=8E-6, WX=30\nMARKER/20, FE_PART=2, NODE_LABEL=2\nVARIABLE/1, FUNCTION=WM(20)\nEND\n",
+      {1, 100, 1e-6});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  EXPECT_NEAR(c.last(1), 30, 1e-5);
+}
+
 }  // namespace
 }  // namespace dynalin::in_time

@@ -55,6 +55,9 @@ struct Shape {
   Vec3<TimeTaylor<S>> c;
   Mat3<Momentary<S>> J;
   Vec3<Momentary<S>> swing;
+
+  Vec3<S> arm() const { return {c.x.value, c.y.value, c.z.value}; }
+  S polar() const { return J(0, 0).value + J(1, 1).value + J(2, 2).value; }  // of all three axes
 };
 
 template <class S>
@@ -340,12 +343,17 @@ void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
     const Contracted c = contract(I, motion, item.first_extra);
 
     const Balance<double> of_body = balance(I.mass, path, c.shape, gravity_);
-    eq.apply(item.body, of_body.force, of_body.moment, 1.0);
+    // The derivatives of axes are of the size of ω² and α in all directions, also where they turn nothing.
+    const double turning = norm(b.wdot) + dot(b.w, b.w);
+    eq.apply_inertia(item.body, of_body.force, of_body.moment,
+                     {.force = turning * norm(c.shape.arm()), .moment = turning * c.shape.polar()});
     const Felt<double> felt(path, gravity_);
     const VectorXd inertia = I.modal * c.q2;
     for (std::size_t k = 0; k < n; ++k) {
-      eq.add_residual(modes + static_cast<std::int32_t>(k),
-                      felt.by(I.of_modes[k], c.G[k], c.G1[k], c.J[k]) + inertia(static_cast<Index>(k)));
+      const double felt_by_mode = felt.by(I.of_modes[k], c.G[k], c.G1[k], c.J[k]) + inertia(static_cast<Index>(k));
+      eq.add_residual(
+          modes + static_cast<std::int32_t>(k), felt_by_mode,
+          std::abs(felt_by_mode) + turning * (norm(c.G[k]) + norm(c.J[k].x) + norm(c.J[k].y) + norm(c.J[k].z)));
     }
     if (eq.wants_partials()) {
       // By the pose.

@@ -38,7 +38,11 @@ void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
     // Σ S_ab a_a × a_b″ is the axial vector of G₂: e_k·T = ε_kij G₂(j,i).
     const Vector moment = Vector{G2(2, 1) - G2(1, 2), G2(0, 2) - G2(2, 0), G2(1, 0) - G2(0, 1)};
     const Vector force = m.mass * (b.rddot - gravity_) + cddot;
-    eq.apply(m.body, force, moment + cross(c, b.rddot - gravity_), 1.0);
+    // R″ is of the size of ω² and α in all axes, also where it turns nothing: ω × J ω of a ball is nothing but
+    // rounding.
+    const double turning = norm(b.wdot) + dot(b.w, b.w);
+    eq.apply_inertia(m.body, force, moment + cross(c, b.rddot - gravity_),
+                     {.force = turning * norm(c), .moment = turning * trace(m.S)});
     if (!eq.wants_partials()) continue;
 
     const Matrix3 one = Matrix3::identity();
