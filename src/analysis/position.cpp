@@ -210,7 +210,7 @@ Held held_starts(const System& system, const Restated& restated) {
   Held held;
   bool any = false;
   for (const StartCondition& s : system.starts()) {
-    held.push_back(s.displacement && restated.holds(*s.owner, s.displacement_argument));
+    held.push_back(s.displacement && restated.holds(*s.owner, s.arguments.displacement));
     any = any || held.back();
   }
   return any ? held : Held();

@@ -33,7 +33,7 @@ bool met_to_rounding(const VelocityCondition& c, const Eigen::VectorXd& velocity
 }
 
 std::vector<VelocityCondition> stated_velocities(const System& system, const Motion& motion, const Restated& restated) {
-  static constexpr std::array cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
+  constexpr auto &cm_names = StatedVelocity::cm_names, &angular_names = StatedVelocity::angular_names;
   std::vector<VelocityCondition> conditions;
   const Model& model = system.model();
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
@@ -79,7 +79,7 @@ std::vector<VelocityCondition> stated_velocities(const System& system, const Mot
   rows.begin();
   system.start_rows(motion, 0, rows);
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    if (!starts[k].velocity || !restated.holds(*starts[k].owner, starts[k].velocity_argument)) continue;
+    if (!starts[k].velocity || !restated.holds(*starts[k].owner, starts[k].arguments.velocity)) continue;
     VelocityCondition s{{},
                         {},
                         *starts[k].velocity,

@@ -84,11 +84,18 @@ enum class ExtraRole : std::uint8_t {
   nodal,     // of a node of a body that deforms, beside its pose: with inertia in each, moved as readily as the pose
 };
 
+// Arguments by which commands may state anew where something starts, and how fast, while its element goes on as it was;
+// empty where there are none.
+struct StartArguments {
+  std::string_view displacement{}, velocity{};
+};
+
 // What an element says of its coordinates outside bodies.
 struct ExtraKind {
   StateTypes types;  // of these coordinates and of their rates as states
   ExtraRole role = ExtraRole::follower;
   std::int32_t rates_behind = 0;  // by how much the number of a rate is more than that of its coordinate
+  StartArguments starts{};
 };
 
 // The coordinates outside bodies of one element.
@@ -151,6 +158,7 @@ struct DifferentialState {
   bool held_in_dynamics = false;  // a constant of the linear model, whose rate counts as zero
   bool course_of_motion = false;  // of a MOTION: what it integrates in time; a constant of statics and linear models
   bool goes_on = false;  // of a course: nothing states where it starts, so in a run that has begun it is where it is
+  std::string_view start_argument{};  // that states where it starts, by itself; of others their element does as a whole
 
   // Whether it is a state of linear models, and of whatever lists states.
   bool varies() const { return !held_in_dynamics && !course_of_motion; }

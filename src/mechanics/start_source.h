@@ -15,8 +15,7 @@ struct StartCondition {
   const ElementLabel* owner = nullptr;
   std::string_view name;
   std::optional<double> displacement, velocity;
-  // Arguments that state them, by which commands may; none of a point of contact.
-  std::string_view displacement_argument{}, velocity_argument{};
+  StartArguments arguments{};  // that state them; none of a point of contact
 };
 
 class StartSource {

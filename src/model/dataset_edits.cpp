@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/model.h"
+
 namespace dynalin {
 
 namespace {
@@ -172,10 +174,22 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
 void DatasetEditor::note_start(const Statement& command, const ArgumentInfo& argument) {
   if (argument.start == StatedStart::nothing) return;
   const Restated::Element element(command.name, *command.id);
-  if (argument.start == StatedStart::place || argument.start == StatedStart::value)
-    restated_.begin(element);
-  else
-    restated_.state(element, argument.name);
+  switch (argument.start) {
+    case StatedStart::nothing:
+      return;
+    case StatedStart::place:
+    case StatedStart::value:
+      return restated_.begin(element);
+    case StatedStart::velocity_axes:
+      for (const std::string_view name : StatedVelocity::cm_names) restated_.state(element, name);
+      return;
+    case StatedStart::angular_axes:
+      for (const std::string_view name : StatedVelocity::angular_names) restated_.state(element, name);
+      return;
+    case StatedStart::velocity:
+    case StatedStart::alone:
+      restated_.state(element, argument.name);
+  }
 }
 
 void DatasetEditor::switch_elements(const Statement& command, bool inactive, Names classes) {

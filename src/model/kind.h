@@ -18,9 +18,16 @@ namespace dynalin {
 struct Model;
 class ElementReader;
 
-// What an argument says of the start of the body, state or value that its statement defines: where all of it begins, a
-// value of a state, or no more than one component of a velocity or a thing of its own.
-enum class StatedStart : std::uint8_t { nothing, place, value, velocity, alone };
+// What an argument says of the start of the body, state or value that its statement defines.
+enum class StatedStart : std::uint8_t {
+  nothing,
+  place,          // where all of it begins
+  value,          // a value of a state
+  velocity,       // one component of a velocity
+  velocity_axes,  // the axes along which all components of that of the mass centre are stated
+  angular_axes,   // the same of the angular velocity
+  alone,          // a thing of its own
+};
 
 // One argument as the manual and the reader of abbreviations see it.
 struct ArgumentInfo {

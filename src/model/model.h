@@ -28,6 +28,9 @@ struct StatedVelocity {
   std::array<std::optional<double>, 3> angular;  // along the axes of `angular_axes`
   MarkerId cm_axes = global_frame;
   MarkerId angular_axes = global_frame;
+
+  // The arguments of every body that state them.
+  static constexpr std::array<std::string_view, 3> cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
 };
 
 struct Body {

@@ -14,15 +14,7 @@ Restated Restated::all() {
   return restated;
 }
 
-void Restated::state(const Element& element, std::string_view argument) {
-  std::set<std::string>& stated = arguments_[element];
-  const bool along_other_axes = argument == "VM" || argument == "WM";
-  if (!along_other_axes) {
-    stated.emplace(argument);
-    return;
-  }
-  for (const char axis : {'X', 'Y', 'Z'}) stated.insert({argument.front(), axis});
-}
+void Restated::state(const Element& element, std::string_view argument) { arguments_[element].emplace(argument); }
 
 void Restated::append(const Restated& more) {
   all_ = all_ || more.all_;

@@ -21,7 +21,7 @@ class Restated {
 
   // An element begins with all that its statement says: a body that is placed, a state with another initial value.
   void begin(const Element& element) { anew_.insert(element); }
-  // One argument of an element that goes on otherwise: VX, DMODE; VM stands for the components along its axes.
+  // One argument of an element that goes on otherwise: VX, DMODE.
   void state(const Element&, std::string_view argument);
   void append(const Restated&);
 

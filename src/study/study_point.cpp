@@ -31,7 +31,7 @@ Restated begun_shapes(const Layout& before, const Layout& now) {
     const ExtraBlock& e = now.extras[k];
     if (goes_on[k] || !e.is_shape()) continue;
     const Restated::Element body(e.label.statement, e.label.id);
-    for (const char* start : {"DMODE", "VMODE"}) begun.state(body, start);
+    for (const std::string_view start : {e.kind.starts.displacement, e.kind.starts.velocity}) begun.state(body, start);
   }
   return begun;
 }

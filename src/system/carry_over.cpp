@@ -16,8 +16,8 @@ namespace {
 // Whether a state begins as it is stated: a course of a MOTION may do so without its rate, and its rate without it.
 bool begins(const Restated& restated, const DifferentialState& state) {
   if (!state.owner) return false;
-  if (!state.course_of_motion) return restated.begins(*state.owner);
-  return restated.holds(*state.owner, state.coordinate == 1 ? "ICDISP" : "ICVEL");
+  return state.start_argument.empty() ? restated.begins(*state.owner)
+                                      : restated.holds(*state.owner, state.start_argument);
 }
 
 void copy_block(const std::vector<double>& from, std::int32_t at, std::vector<double>& to, std::int32_t into,
@@ -109,7 +109,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
     const ExtraBlock &before = old.extras[a], &after = now.extras[b];
     // The shape of a body starts anew with its place.
     if (before.count != after.count || restated.begins(after.label)) continue;
-    if (!restated.holds(after.label, "DMODE"))
+    if (!restated.holds(after.label, after.kind.starts.displacement))
       copy_block(op.extra, static_cast<std::int32_t>(old.extra_index(before.offset)), out.extra,
                  static_cast<std::int32_t>(now.extra_index(after.offset)), after.count);
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);

@@ -141,11 +141,11 @@ struct FePart {
       {.name = "VM",
        .slot = &FePart::vm,
        .help = "axes of VX, VY, VZ; global by default",
-       .start = StatedStart::velocity},
+       .start = StatedStart::velocity_axes},
       {.name = "WM",
        .slot = &FePart::wm,
        .help = "axes of WX, WY, WZ; those of the BCS by default",
-       .start = StatedStart::velocity},
+       .start = StatedStart::angular_axes},
   }};
 };
 

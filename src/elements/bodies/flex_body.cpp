@@ -28,6 +28,7 @@ namespace {
 // Of the pose and of the modes as states. Modes have numbers behind this one, their rates behind its double.
 constexpr StateTypes flexible_types{StateType::flex_body, StateType::flex_body_relative, StateType::flex_body_euler};
 constexpr std::int32_t modal_numbers = 1000000;
+constexpr StartArguments modal_starts{"DMODE", "VMODE"};
 
 constexpr std::array<std::string_view, 6> pose_names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
 
@@ -65,8 +66,8 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     const auto axes = orientation({f.angles, f.z_point, f.x_point, false, "REULER", "ZG", "XG"}, f.origin, reader);
     if (axes) f.axes = *axes;
     for (const auto& [word, at] : {std::pair{"MATRICES", &f.matrices_at},
-                                   {"DMODE", &f.displacements_at},
-                                   {"VMODE", &f.rates_at},
+                                   {modal_starts.displacement, &f.displacements_at},
+                                   {modal_starts.velocity, &f.rates_at},
                                    {"MODAL_EXACT_DISP", &f.held_displacements_at},
                                    {"MODAL_EXACT_VEL", &f.held_rates_at},
                                    {"GENERALIZED_DAMPING", &f.damping_at},
@@ -101,7 +102,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       for (const std::string& word : f.exact) {
         if (const auto at = find_keyword(word, pose_names)) body.exact[*at] = true;
       }
-      body.modal_kind = {flexible_types, ExtraRole::shape, modal_numbers};
+      body.modal_kind = {flexible_types, ExtraRole::shape, modal_numbers, modal_starts};
       for (Eigen::Index m = 0; m < f.flexible->modes(); ++m) {
         const std::int64_t number = f.flexible->number[static_cast<std::size_t>(m)];
         body.modal.push_back({.name = fmt::format("Modal generalized coordinate Q{}", number),
@@ -194,8 +195,8 @@ class FlexBodySet final : public TypedSet<FlexBody> {
                           fmt::format("{} has {} values, {} has {} modes", word, given.size(), name, count));
       }
     };
-    take(f.displacements, "DMODE", f.displacements_at, b.displacement);
-    take(f.rates, "VMODE", f.rates_at, b.rate);
+    take(f.displacements, modal_starts.displacement, f.displacements_at, b.displacement);
+    take(f.rates, modal_starts.velocity, f.rates_at, b.rate);
     const auto hold = [&](const std::vector<std::int64_t>& modes, std::string_view word, const Span& at,
                           std::vector<bool>& held) {
       for (const std::int64_t m : modes) {

@@ -96,11 +96,11 @@ struct Part {
       {.name = "VM",
        .slot = &Part::vm,
        .help = "axes of VX, VY, VZ; global by default",
-       .start = StatedStart::velocity},
+       .start = StatedStart::velocity_axes},
       {.name = "WM",
        .slot = &Part::wm,
        .help = "axes of WX, WY, WZ; those of CM by default",
-       .start = StatedStart::velocity},
+       .start = StatedStart::angular_axes},
       {.name = "EXACT", .slot = &Part::exact, .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
       {.name = "MATERIAL", .slot = &Part::material, .help = "name of a MATERIAL; has no effect on a rigid part"},
   }};

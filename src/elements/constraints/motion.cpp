@@ -32,6 +32,8 @@ namespace {
 
 enum class DriveLevel : std::uint8_t { displacement, velocity, acceleration };
 
+constexpr StartArguments course_starts{"ICDISP", "ICVEL"};
+
 struct PrescribedMotion {
   JointRef joint;
   MarkerId i, j;  // of the joint when there is one
@@ -114,9 +116,10 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
       row.prescribed = true;
       if (e.level == DriveLevel::displacement) continue;
       layout.velocity_driven.push_back(&labels[k]);
-      d.course = row.course = layout.add_state(course(labels[k], 1, e.start, !e.icdisp));
+      d.course = row.course = layout.add_state(course(labels[k], 1, e.start, !e.icdisp, course_starts.displacement));
       if (e.level == DriveLevel::acceleration)
-        d.course_rate = row.course_rate = layout.add_state(course(labels[k], 2, e.icvel.value_or(0.0), !e.icvel));
+        d.course_rate = row.course_rate =
+            layout.add_state(course(labels[k], 2, e.icvel.value_or(0.0), !e.icvel, course_starts.velocity));
     }
   }
 
@@ -195,13 +198,15 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
     BoundExpression function;
     std::int32_t course = -1, course_rate = -1;  // s and s′ among the differential states, −1 for what is given
   };
-  static DifferentialState course(const ElementLabel& owner, std::int32_t number, double start, bool goes_on) {
+  static DifferentialState course(const ElementLabel& owner, std::int32_t number, double start, bool goes_on,
+                                  std::string_view start_argument) {
     return {.owner = &owner,
             .coordinate = number,
             .initial = start,
             .held_in_statics = true,
             .course_of_motion = true,
-            .goes_on = goes_on};
+            .goes_on = goes_on,
+            .start_argument = start_argument};
   }
   static double state(std::int32_t k, const Motion& motion) { return motion.state[static_cast<std::size_t>(k)]; }
   // s′ = f, or s′ = p and p′ = f.

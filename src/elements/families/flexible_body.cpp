@@ -273,7 +273,7 @@ FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, Layout& layout) : gra
       if (!place && !rate) continue;
       starts_.push_back({&body.label, body.modal[k].name,
                          place ? std::optional(f.flexible->displacement(at)) : std::nullopt,
-                         rate ? std::optional(f.flexible->rate(at)) : std::nullopt, "DMODE", "VMODE"});
+                         rate ? std::optional(f.flexible->rate(at)) : std::nullopt, body.modal_kind.starts});
       start_places_.push_back({items_.size(), at});
     }
     const bool read = model.routine_data && model.routine_data->modes_read.contains(static_cast<int>(body.label.id));

@@ -189,8 +189,11 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
       for (const bool turns : {true, false}) {
         const JointStart& start = turns ? joints[k].rotation : joints[k].translation;
         if (!start.displacement && !start.velocity) continue;
-        starts_.push_back({&labels[k], turns ? "rotation" : "translation", start.displacement, start.velocity,
-                           start.argument, start.argument});
+        starts_.push_back({&labels[k],
+                           turns ? "rotation" : "translation",
+                           start.displacement,
+                           start.velocity,
+                           {start.argument, start.argument}});
         start_places_.push_back({placed.I, placed.J, turns});
       }
       joints_.push_back(std::move(placed));

@@ -62,8 +62,9 @@ std::optional<double> NodalBody::own_work(const Motion& motion, PartialBy by, co
 }
 
 void NodalBody::start_velocity(const Motion& motion, const Holds& holds, std::span<double> of_all) const {
-  static constexpr std::array components_of_both = {"VX", "VY", "VZ", "WX", "WY", "WZ"};
-  if (std::ranges::none_of(components_of_both, holds)) return;
+  if (std::ranges::none_of(StatedVelocity::cm_names, holds) &&
+      std::ranges::none_of(StatedVelocity::angular_names, holds))
+    return;
   const StatedVelocity& stated = beam_->velocity;
   const Pose& first = model_->body(beam_->nodes.front()).pose;
   const BodyMotion& first_now = motion.body(beam_->nodes.front());

@@ -109,7 +109,8 @@ std::optional<double> ShapedBody::own_work(const Motion&, PartialBy by, const Ei
 }
 
 void ShapedBody::start_velocity(const Motion&, const Holds& holds, std::span<double> of_all) const {
-  if (holds("VMODE")) std::ranges::copy(shape().rate, of_all.begin() + modes_);
+  if (holds(model_->body(of_.body).modal_kind.starts.velocity))
+    std::ranges::copy(shape().rate, of_all.begin() + modes_);
 }
 
 void ShapedBody::add_cautions(const Motion& motion, Diagnostics& out) const {
