@@ -1,5 +1,7 @@
 // Table of the functions that yield atoms: names, kinematic orders, argument counts.
+#include <algorithm>
 #include <array>
+#include <optional>
 
 #include "expression/expression.h"
 
@@ -8,6 +10,7 @@ namespace dynalin {
 namespace {
 
 using enum AtomFamily;
+using enum Measure;
 using std::int8_t;
 using std::uint8_t;
 
@@ -25,9 +28,9 @@ constexpr std::string_view element_of_force =
     "comp   1 … 8: FM, FX, FY, FZ, TM, TX, TY, TZ\n"
     "rm     id of the marker whose axes are used, 0 for global ones";
 
-constexpr AtomFunction measure(std::string_view name, int8_t order, uint8_t minimum, uint8_t maximum,
+constexpr AtomFunction measure(std::string_view name, Measure which, int8_t order, uint8_t minimum, uint8_t maximum,
                                FunctionText text = {}) {
-  return {name, marker_measure, order, minimum, maximum, "", true, text};
+  return {name, marker_measure, order, minimum, maximum, "", true, text, {}, DataSource::none, which};
 }
 constexpr AtomFunction from_data(std::string_view name, DataSource reads, uint8_t arguments, std::string_view statement,
                                  FunctionText text) {
@@ -73,111 +76,112 @@ constexpr std::array atom_table = {
                  true,
                  {"", "the time", "time", "in a linear model that of the operating point"}},
     // Displacements: (i, j, k), (i, j) where no axes are needed.
-    measure("DX", 0, 1, 3,
+    measure("DX", DX, 0, 1, 3,
             {"i [, j [, k]]", "x of the displacement of marker i from j, along the axes of k", "length", markers}),
-    measure("DY", 0, 1, 3,
+    measure("DY", DY, 0, 1, 3,
             {"i [, j [, k]]", "y of the displacement of marker i from j, along the axes of k", "length", markers}),
-    measure("DZ", 0, 1, 3,
+    measure("DZ", DZ, 0, 1, 3,
             {"i [, j [, k]]", "z of the displacement of marker i from j, along the axes of k", "length", markers}),
-    measure("DM", 0, 1, 2, {"i [, j]", "distance of marker i from j", "length", markers}),
+    measure("DM", DM, 0, 1, 2, {"i [, j]", "distance of marker i from j", "length", markers}),
     // Velocities: (i, j, k, l), (i, j, l) for the norms.
-    measure("VX", 1, 1, 4,
+    measure("VX", VX, 1, 1, 4,
             {"i [, j [, k [, l]]]",
              "x of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
              markers}),
-    measure("VY", 1, 1, 4,
+    measure("VY", VY, 1, 1, 4,
             {"i [, j [, k [, l]]]",
              "y of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
              markers}),
-    measure("VZ", 1, 1, 4,
+    measure("VZ", VZ, 1, 1, 4,
             {"i [, j [, k [, l]]]",
              "z of the velocity of marker i relative to j, along the axes of k, derivative taken in l", "length/time",
              markers}),
-    measure("VM", 1, 1, 3,
+    measure("VM", VM, 1, 1, 3,
             {"i [, j [, l]]", "size of the velocity of marker i relative to j, derivative taken in l", "length/time",
              markers}),
-    measure("VR", 1, 1, 3,
+    measure("VR", VR, 1, 1, 3,
             {"i [, j [, l]]", "rate of the distance of marker i from j, positive where they separate", "length/time",
              markers}),
-    measure("WX", 1, 1, 3,
+    measure("WX", WX, 1, 1, 3,
             {"i [, j [, k]]", "x of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
              markers}),
-    measure("WY", 1, 1, 3,
+    measure("WY", WY, 1, 1, 3,
             {"i [, j [, k]]", "y of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
              markers}),
-    measure("WZ", 1, 1, 3,
+    measure("WZ", WZ, 1, 1, 3,
             {"i [, j [, k]]", "z of the angular velocity of marker i relative to j, along the axes of k", "rad/time",
              markers}),
-    measure("WM", 1, 1, 2, {"i [, j]", "size of the angular velocity of marker i relative to j", "rad/time", markers}),
+    measure("WM", WM, 1, 1, 2,
+            {"i [, j]", "size of the angular velocity of marker i relative to j", "rad/time", markers}),
     // Accelerations: (i, j, k, l), (i, j, l) for the norms.
-    measure("ACCX", 2, 1, 4,
+    measure("ACCX", ACCX, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "x of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "length/time²", markers}),
-    measure("ACCY", 2, 1, 4,
+    measure("ACCY", ACCY, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "y of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "length/time²", markers}),
-    measure("ACCZ", 2, 1, 4,
+    measure("ACCZ", ACCZ, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "z of the acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "length/time²", markers}),
-    measure("ACCM", 2, 1, 3,
+    measure("ACCM", ACCM, 2, 1, 3,
             {"i [, j [, l]]", "size of the acceleration of marker i relative to j, derivative taken in l",
              "length/time²", markers}),
-    measure("WDTX", 2, 1, 4,
+    measure("WDTX", WDTX, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "x of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "rad/time²", markers}),
-    measure("WDTY", 2, 1, 4,
+    measure("WDTY", WDTY, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "y of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "rad/time²", markers}),
-    measure("WDTZ", 2, 1, 4,
+    measure("WDTZ", WDTZ, 2, 1, 4,
             {"i [, j [, k [, l]]]",
              "z of the angular acceleration of marker i relative to j, along the axes of k, derivative taken in l",
              "rad/time²", markers}),
-    measure("WDTM", 2, 1, 3,
+    measure("WDTM", WDTM, 2, 1, 3,
             {"i [, j [, l]]", "size of the angular acceleration of marker i relative to j, derivative taken in l",
              "rad/time²", markers}),
     // Angles: (i, j).
-    measure("AX", 0, 1, 2,
+    measure("AX", AX, 0, 1, 2,
             {"i [, j]", "angle of marker i about the x axis of j; whole turns are counted", "rad", markers}),
-    measure("AY", 0, 1, 2,
+    measure("AY", AY, 0, 1, 2,
             {"i [, j]", "angle of marker i about the y axis of j; whole turns are counted", "rad", markers}),
-    measure("AZ", 0, 1, 2,
+    measure("AZ", AZ, 0, 1, 2,
             {"i [, j]", "angle of marker i about the z axis of j; whole turns are counted", "rad", markers}),
-    measure("PSI", 0, 1, 2,
+    measure("PSI", PSI, 0, 1, 2,
             {"i [, j]", "first of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
-    measure("THETA", 0, 1, 2,
+    measure("THETA", THETA, 0, 1, 2,
             {"i [, j]", "second of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
-    measure("PHI", 0, 1, 2,
+    measure("PHI", PHI, 0, 1, 2,
             {"i [, j]", "third of the 3-1-3 angles (about z, new x, new z) from j to i", "rad", markers}),
-    measure("YAW", 0, 1, 2,
+    measure("YAW", YAW, 0, 1, 2,
             {"i [, j]", "first of the 3-2-1 angles (about z, new y, new x) from j to i", "rad", markers}),
-    measure("PITCH", 0, 1, 2,
+    measure("PITCH", PITCH, 0, 1, 2,
             {"i [, j]", "the negative of the second of the 3-2-1 angles from j to i", "rad", markers}),
-    measure("ROLL", 0, 1, 2, {"i [, j]", "third of the 3-2-1 angles from j to i", "rad", markers}),
-    measure("INCANG", 0, 3, 3,
+    measure("ROLL", ROLL, 0, 1, 2, {"i [, j]", "third of the 3-2-1 angles from j to i", "rad", markers}),
+    measure("INCANG", INCANG, 0, 3, 3,
             {"i, j, k", "angle at marker j between the lines to i and to k, 0 … π", "rad", "i, j, k  ids of markers"}),
     // Axes of marker i, component by component in the axes of k: (i, k). The dot keeps the names out of the language.
-    measure("UVX.X", 0, 1, 2),
-    measure("UVX.Y", 0, 1, 2),
-    measure("UVX.Z", 0, 1, 2),
-    measure("UVY.X", 0, 1, 2),
-    measure("UVY.Y", 0, 1, 2),
-    measure("UVY.Z", 0, 1, 2),
-    measure("UVZ.X", 0, 1, 2),
-    measure("UVZ.Y", 0, 1, 2),
-    measure("UVZ.Z", 0, 1, 2),
+    measure("UVX.X", UVX_X, 0, 1, 2),
+    measure("UVX.Y", UVX_Y, 0, 1, 2),
+    measure("UVX.Z", UVX_Z, 0, 1, 2),
+    measure("UVY.X", UVY_X, 0, 1, 2),
+    measure("UVY.Y", UVY_Y, 0, 1, 2),
+    measure("UVY.Z", UVY_Z, 0, 1, 2),
+    measure("UVZ.X", UVZ_X, 0, 1, 2),
+    measure("UVZ.Y", UVZ_Y, 0, 1, 2),
+    measure("UVZ.Z", UVZ_Z, 0, 1, 2),
     // Angles together, smooth where each of them is not (smooth_angles.cpp); no names of the language either.
-    measure("PSI.PLUS.PHI", 0, 1, 2),
-    measure("PSI.MINUS.PHI", 0, 1, 2),
-    measure("THETA.SQUARED", 0, 1, 2),
-    measure("YAW.PLUS.ROLL", 0, 1, 2),
-    measure("YAW.MINUS.ROLL", 0, 1, 2),
-    measure("INCANG.SQUARED", 0, 3, 3),
-    measure("INCANG.COSINE", 0, 3, 3),
+    measure("PSI.PLUS.PHI", PSI_PLUS_PHI, 0, 1, 2),
+    measure("PSI.MINUS.PHI", PSI_MINUS_PHI, 0, 1, 2),
+    measure("THETA.SQUARED", THETA_SQUARED, 0, 1, 2),
+    measure("YAW.PLUS.ROLL", YAW_PLUS_ROLL, 0, 1, 2),
+    measure("YAW.MINUS.ROLL", YAW_MINUS_ROLL, 0, 1, 2),
+    measure("INCANG.SQUARED", INCANG_SQUARED, 0, 3, 3),
+    measure("INCANG.COSINE", INCANG_COSINE, 0, 3, 3),
     // Net force and torque on a marker: (i, j, k), (i, j).
     at_marker("FX", 3, "x of the force on marker i of all elements between i and j, along the axes of k", "force"),
     at_marker("FY", 3, "y of the force on marker i of all elements between i and j, along the axes of k", "force"),
@@ -292,6 +296,10 @@ const AtomFunction* find_atom_function(std::string_view name) {
     if (f.name == name) return &f;
   }
   return nullptr;
+}
+
+const AtomFunction& atom_function(Measure measure) {
+  return *std::ranges::find(atom_table, std::optional(measure), &AtomFunction::measure);
 }
 
 ReferenceClass reference_class(const AtomFunction& function, std::size_t argument) {

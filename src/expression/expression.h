@@ -20,6 +20,7 @@
 #include "base/time_taylor.h"
 #include "dataset/dataset.h"
 #include "expression/function_text.h"
+#include "expression/measures.h"
 #include "expression/spline.h"
 
 namespace dynalin {
@@ -74,12 +75,14 @@ struct AtomFunction {
   FunctionText text{};
   std::string_view required_argument{};  // that the statement of the element must have
   DataSource reads = DataSource::none;
+  std::optional<Measure> measure{};  // which it is, of the family marker_measure
 };
 
 // Table of all atom functions, in the order of the documentation.
 std::span<const AtomFunction> atom_functions();
 // The one of that upper-case name, nullptr if there is none.
 const AtomFunction* find_atom_function(std::string_view name);
+const AtomFunction& atom_function(Measure);
 // What the zero-based argument of an atom function names.
 ReferenceClass reference_class(const AtomFunction&, std::size_t argument);
 

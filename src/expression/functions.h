@@ -47,7 +47,9 @@ struct Function {
   // decides; null where it is smooth.
   void (*switches)(std::span<const double>, SwitchList&) = nullptr;
 
-  bool kinked = false;  // has kinks or jumps, whatever its arguments
+  bool kinked = false;            // has kinks or jumps, whatever its arguments
+  bool flat_at_kinks = false;     // of one of them: it is continuous there, and its slope counts as zero
+  double growth_at_infinity = 0;  // the order in which it grows where its slope is infinite, 0 if that is not known
 
   double operator()(std::span<const double> a) const { return on_double(a); }
   TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const { return on_taylor(a); }

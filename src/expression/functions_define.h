@@ -74,6 +74,16 @@ constexpr Function kinked(Function f, SwitchingFunctions switches) {
   f.kinked = true;
   return with_switches(f, switches);
 }
+// In kinks where its slope counts as zero.
+constexpr Function flat_at_kinks(Function f) {
+  f.flat_at_kinks = true;
+  return f;
+}
+// Like a root where its slope is infinite.
+constexpr Function growing_like_a_root(Function f) {
+  f.growth_at_infinity = 0.5;
+  return f;
+}
 
 template <class T>
 T undefined() {

@@ -186,10 +186,13 @@ std::string power_domain(std::span<const double> a) {
 }
 
 constexpr std::array elementary_table = {
-    kinked(function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
-           sign_of_first),
-    function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain),
-    function<1>("ASIN", {"a", "the angle, −π/2 … π/2, whose sine is a", "rad", "a  −1 … 1"}, arc_sine, asin_domain),
+    flat_at_kinks(kinked(
+        function<1>("ABS", {"a", "the size of a, |a|", "as a", "its derivative at a = 0 is taken as 0"}, absolute),
+        sign_of_first)),
+    growing_like_a_root(
+        function<1>("ACOS", {"a", "the angle, 0 … π, whose cosine is a", "rad", "a  −1 … 1"}, arc_cosine, acos_domain)),
+    growing_like_a_root(function<1>("ASIN", {"a", "the angle, −π/2 … π/2, whose sine is a", "rad", "a  −1 … 1"},
+                                    arc_sine, asin_domain)),
     function<1>("ATAN", {"a", "the angle, −π/2 … π/2, whose tangent is a", "rad", ""}, arc_tangent),
     with_switches(function<2>("ATAN2",
                               {"y, x", "the angle, −π … π, of the point (x, y) seen from the origin", "rad",
@@ -203,8 +206,9 @@ constexpr std::array elementary_table = {
     function<1>("SINH", {"a", "hyperbolic sine", "1", ""}, hyperbolic_sine),
     function<1>("TANH", {"a", "hyperbolic tangent", "1", ""}, hyperbolic_tangent),
     function<1>("EXP", {"a", "e to the power a", "1", ""}, exponential),
-    function<1>("SQRT", {"a", "square root", "root of that of a", "a  0 or more; at 0 there is no derivative"},
-                square_root, sqrt_domain),
+    growing_like_a_root(
+        function<1>("SQRT", {"a", "square root", "root of that of a", "a  0 or more; at 0 there is no derivative"},
+                    square_root, sqrt_domain)),
     function<1>("LOG", {"a", "natural logarithm", "1", "a  above 0"}, natural_logarithm, log_domain),
     function<1>("LOG10", {"a", "logarithm to the base 10", "1", "a  above 0"}, decimal_logarithm, log10_domain),
     kinked(function<1>("AINT", {"a", "a without its fraction, towards 0", "as a", "its derivative is 0"}, truncated,
@@ -226,9 +230,9 @@ constexpr std::array elementary_table = {
     kinked(function<2>("MOD", {"a, b", "the remainder of a divided by b, with the sign of a", "as a", "b  not 0"},
                        remainder_of_division, mod_domain, ZeroPartial::flat),
            remainder_switches),
-    kinked(
+    flat_at_kinks(kinked(
         function<2>("SIGN", {"a, b", "the size of a with the sign of b, plus where b = 0", "as a", ""}, with_sign_of),
-        sign_switches),
+        sign_switches)),
 };
 constexpr Function power_operator = function<2>("**", {}, power_of, power_domain);
 

@@ -288,60 +288,6 @@ struct Segments {
 
 }  // namespace
 
-std::optional<Measure> find_measure(std::string_view name) {
-  static constexpr std::array<std::string_view, 47> names = {"DX",
-                                                             "DY",
-                                                             "DZ",
-                                                             "DM",
-                                                             "VX",
-                                                             "VY",
-                                                             "VZ",
-                                                             "VM",
-                                                             "VR",
-                                                             "WX",
-                                                             "WY",
-                                                             "WZ",
-                                                             "WM",
-                                                             "ACCX",
-                                                             "ACCY",
-                                                             "ACCZ",
-                                                             "ACCM",
-                                                             "WDTX",
-                                                             "WDTY",
-                                                             "WDTZ",
-                                                             "WDTM",
-                                                             "AX",
-                                                             "AY",
-                                                             "AZ",
-                                                             "PSI",
-                                                             "THETA",
-                                                             "PHI",
-                                                             "YAW",
-                                                             "PITCH",
-                                                             "ROLL",
-                                                             "INCANG",
-                                                             "UVX.X",
-                                                             "UVX.Y",
-                                                             "UVX.Z",
-                                                             "UVY.X",
-                                                             "UVY.Y",
-                                                             "UVY.Z",
-                                                             "UVZ.X",
-                                                             "UVZ.Y",
-                                                             "UVZ.Z",
-                                                             "PSI.PLUS.PHI",
-                                                             "PSI.MINUS.PHI",
-                                                             "YAW.PLUS.ROLL",
-                                                             "YAW.MINUS.ROLL",
-                                                             "THETA.SQUARED",
-                                                             "INCANG.SQUARED",
-                                                             "INCANG.COSINE"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (names[k] == name) return static_cast<Measure>(k);
-  }
-  return std::nullopt;
-}
-
 bool may_jump(Measure m) {
   switch (m) {
     case Measure::PSI:

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "base/time_taylor.h"
@@ -28,7 +27,6 @@ enum class Measure : std::uint8_t {
   // clang-format on
 };
 
-std::optional<Measure> find_measure(std::string_view name);
 // AX, AY and AZ count whole turns.
 constexpr bool counts_turns(Measure m) { return m == Measure::AX || m == Measure::AY || m == Measure::AZ; }
 

@@ -17,7 +17,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include "expression/program_builder.h"
 
@@ -27,23 +27,37 @@ namespace {
 
 using Kind = ExpressionNode::Kind;
 
+// Functions of angles.
+enum class Wave : std::uint8_t { sine, cosine };
+bool is_call_of(Wave wave, const ExpressionNode& n) {
+  static const std::array functions = {find_function("SIN"), find_function("COS")};
+  return n.kind == Kind::call && n.function == functions[static_cast<std::size_t>(wave)];
+}
+
+using enum Measure;
+
 struct Product {
-  std::string_view of_first, first, of_second, second, entry;
+  Wave of_first;
+  Measure first;
+  Wave of_second;
+  Measure second, entry;
   double sign;
 };
-// UVX.Z is the component z, axes of j, of the axis x of i: entry (3, 1).
+// UVX_Z is the component z, axes of j, of the axis x of i: entry (3, 1).
 constexpr std::array products = {
     // clang-format off
-    Product{"SIN", "THETA", "SIN", "PSI",  "UVZ.X",  1},
-    Product{"SIN", "THETA", "COS", "PSI",  "UVZ.Y", -1},
-    Product{"SIN", "THETA", "SIN", "PHI",  "UVX.Z",  1},
-    Product{"SIN", "THETA", "COS", "PHI",  "UVY.Z",  1},
-    Product{"COS", "PITCH", "SIN", "YAW",  "UVX.Y",  1},
-    Product{"COS", "PITCH", "COS", "YAW",  "UVX.X",  1},
-    Product{"COS", "PITCH", "SIN", "ROLL", "UVY.Z",  1},
-    Product{"COS", "PITCH", "COS", "ROLL", "UVZ.Z",  1},
+    Product{Wave::sine, THETA, Wave::sine, PSI, UVZ_X, 1},
+    Product{Wave::sine, THETA, Wave::cosine, PSI, UVZ_Y, -1},
+    Product{Wave::sine, THETA, Wave::sine, PHI, UVX_Z, 1},
+    Product{Wave::sine, THETA, Wave::cosine, PHI, UVY_Z, 1},
+    Product{Wave::cosine, PITCH, Wave::sine, YAW, UVX_Y, 1},
+    Product{Wave::cosine, PITCH, Wave::cosine, YAW, UVX_X, 1},
+    Product{Wave::cosine, PITCH, Wave::sine, ROLL, UVY_Z, 1},
+    Product{Wave::cosine, PITCH, Wave::cosine, ROLL, UVZ_Z, 1},
     // clang-format on
 };
+
+constexpr std::array squares = {std::pair{THETA, THETA_SQUARED}, std::pair{INCANG, INCANG_SQUARED}};
 
 class Rewriting {
  public:
@@ -67,32 +81,31 @@ class Rewriting {
       }
     }
     for (std::size_t k = 0; k < p_.nodes.size(); ++k) {
-      if (const Atom* a = angle_of_call(k, "COS", "THETA")) put(k, "UVZ.Z", *a);
-      if (const Atom* a = angle_of_call(k, "SIN", "PITCH")) put(k, "UVX.Z", *a);
-      if (const Atom* a = angle_of_call(k, "COS", "INCANG")) put(k, "INCANG.COSINE", *a);
+      if (const Atom* a = angle_of_call(k, Wave::cosine, THETA)) put(k, UVZ_Z, *a);
+      if (const Atom* a = angle_of_call(k, Wave::sine, PITCH)) put(k, UVX_Z, *a);
+      if (const Atom* a = angle_of_call(k, Wave::cosine, INCANG)) put(k, INCANG_COSINE, *a);
     }
     if (changed_) clear_unused();
   }
 
  private:
   const ExpressionNode& node(std::int32_t k) const { return p_.nodes[static_cast<std::size_t>(k)]; }
-  const Atom* atom(std::int32_t k, std::string_view name) const {
+  const Atom* atom(std::int32_t k, Measure measure) const {
     if (node(k).kind != Kind::atom) return nullptr;
     const Atom& a = p_.atoms[static_cast<std::size_t>(node(k).a)];
-    return a.function->name == name ? &a : nullptr;
+    return a.function->measure == measure ? &a : nullptr;
   }
-  // The angle of that name whose function this node is.
-  const Atom* angle_of_call(std::size_t k, std::string_view function, std::string_view angle) const {
+  // That angle, whose sine or cosine this node is.
+  const Atom* angle_of_call(std::size_t k, Wave wave, Measure angle) const {
     const ExpressionNode& n = p_.nodes[k];
-    if (n.kind != Kind::call || n.function->name != function) return nullptr;
-    return atom(p_.operands[static_cast<std::size_t>(n.b)], angle);
+    return is_call_of(wave, n) ? atom(p_.operands[static_cast<std::size_t>(n.b)], angle) : nullptr;
   }
   static bool same_markers(const Atom& a, const Atom& b) { return a.argument == b.argument; }
 
-  // The node becomes the quantity of that name, of the markers of an atom in it.
-  void put(std::size_t k, std::string_view name, const Atom& of) {
+  // The node becomes that quantity, of the markers of an atom in it.
+  void put(std::size_t k, Measure measure, const Atom& of) {
     Atom quantity = of;
-    quantity.function = find_atom_function(name);
+    quantity.function = &atom_function(measure);
     quantity.at = p_.places[k];
     const auto found = std::ranges::find_if(
         p_.atoms, [&](const Atom& a) { return a.function == quantity.function && a.argument == quantity.argument; });
@@ -104,7 +117,7 @@ class Rewriting {
 
   void square(std::size_t k, std::int32_t of, double exponent) {
     const bool even = exponent > 0 && std::fmod(exponent, 2.0) == 0.0;
-    for (const auto& [angle, squared] : {std::pair{"THETA", "THETA.SQUARED"}, std::pair{"INCANG", "INCANG.SQUARED"}}) {
+    for (const auto& [angle, squared] : squares) {
       const Atom* a = even ? atom(of, angle) : nullptr;
       if (!a) continue;
       if (exponent == 2.0) return put(k, squared, *a);
@@ -118,16 +131,14 @@ class Rewriting {
 
   // What two factors are together: a quantity, of the markers of an atom, with a sign.
   struct Together {
-    std::string_view name;
+    Measure quantity;
     double sign;
     Atom of;
   };
   std::optional<Together> together(std::int32_t x, std::int32_t y) const {
-    for (const std::string_view angle : {"THETA", "INCANG"}) {
+    for (const auto& [angle, squared] : squares) {
       const Atom *a = atom(x, angle), *b = atom(y, angle);
-      if (a && b && same_markers(*a, *b)) {
-        return Together{angle == "THETA" ? "THETA.SQUARED" : "INCANG.SQUARED", 1, *a};
-      }
+      if (a && b && same_markers(*a, *b)) return Together{squared, 1, *a};
     }
     for (const auto& [m, n] : {std::pair{x, y}, std::pair{y, x}}) {
       for (const Product& product : products) {
@@ -143,11 +154,11 @@ class Rewriting {
   void multiply(std::size_t k) {
     const std::int32_t y = p_.nodes[k].b;
     if (const auto both = together(p_.nodes[k].a, y)) {
-      if (both->sign > 0) return put(k, both->name, both->of);
+      if (both->sign > 0) return put(k, both->quantity, both->of);
       const std::int32_t argument = p_.operands[static_cast<std::size_t>(node(y).b)];
       if (users(argument) > 1) return;
       p_.places[static_cast<std::size_t>(argument)] = p_.places[k];
-      put(static_cast<std::size_t>(argument), both->name, both->of);
+      put(static_cast<std::size_t>(argument), both->quantity, both->of);
       p_.nodes[k] = {.kind = Kind::negate, .a = argument};
       return;
     }
@@ -163,7 +174,7 @@ class Rewriting {
       p_.nodes[static_cast<std::size_t>(y)] = {.kind = Kind::negate, .a = place};
     }
     p_.places[static_cast<std::size_t>(place)] = at;
-    put(static_cast<std::size_t>(place), both->name, both->of);
+    put(static_cast<std::size_t>(place), both->quantity, both->of);
     p_.nodes[k].a = inner.a;
   }
 
@@ -172,13 +183,13 @@ class Rewriting {
     const ExpressionNode outer = p_.nodes[k];
     const double sign_y = outer.kind == Kind::add ? 1 : -1;
     if (const auto pair = turns(outer.a, outer.b)) {
-      const auto& [name_plus, name_minus, swapped] = *pair;
-      if (sign_y > 0) return put(k, name_plus, *of(outer.a));
-      if (!swapped) return put(k, name_minus, *of(outer.a));
+      const auto& [with_plus, with_minus, swapped] = *pair;
+      if (sign_y > 0) return put(k, with_plus, *of(outer.a));
+      if (!swapped) return put(k, with_minus, *of(outer.a));
       if (users(outer.b) > 1) return;
       const Atom angle = *of(outer.b);
       p_.places[static_cast<std::size_t>(outer.b)] = p_.places[k];
-      put(static_cast<std::size_t>(outer.b), name_minus, angle);
+      put(static_cast<std::size_t>(outer.b), with_minus, angle);
       p_.nodes[k] = {.kind = Kind::negate, .a = outer.b};
       return;
     }
@@ -186,25 +197,24 @@ class Rewriting {
     if ((inner.kind != Kind::add && inner.kind != Kind::subtract) || users(outer.a) > 1 || users(outer.b) > 1) return;
     const auto pair = turns(inner.b, outer.b);
     if (!pair) return;
-    const auto& [name_plus, name_minus, swapped] = *pair;
+    const auto& [with_plus, with_minus, swapped] = *pair;
     const double sign_x = inner.kind == Kind::add ? 1 : -1;
     // sign_x x + sign_y y = sign (x + y), or sign (first − last).
     const bool plus = sign_x == sign_y;
     const double sign = plus ? sign_x : swapped ? sign_y : sign_x;
     const Atom angle = *of(outer.b);
     p_.places[static_cast<std::size_t>(outer.b)] = join(of(inner.b)->at, angle.at);
-    put(static_cast<std::size_t>(outer.b), plus ? name_plus : name_minus, angle);
+    put(static_cast<std::size_t>(outer.b), plus ? with_plus : with_minus, angle);
     p_.nodes[k] = {.kind = sign > 0 ? Kind::add : Kind::subtract, .a = inner.a, .b = outer.b};
   }
 
   struct Turns {
-    std::string_view plus, minus;
+    Measure plus, minus;
     bool swapped;  // the last of the three angles stands first
   };
   std::optional<Turns> turns(std::int32_t x, std::int32_t y) const {
     for (const auto& [first, last, plus, minus] :
-         {std::array<std::string_view, 4>{"PSI", "PHI", "PSI.PLUS.PHI", "PSI.MINUS.PHI"},
-          std::array<std::string_view, 4>{"YAW", "ROLL", "YAW.PLUS.ROLL", "YAW.MINUS.ROLL"}}) {
+         {std::array{PSI, PHI, PSI_PLUS_PHI, PSI_MINUS_PHI}, std::array{YAW, ROLL, YAW_PLUS_ROLL, YAW_MINUS_ROLL}}) {
       for (const bool swapped : {false, true}) {
         const Atom *a = atom(x, swapped ? last : first), *b = atom(y, swapped ? first : last);
         if (a && b && same_markers(*a, *b)) return Turns{plus, minus, swapped};
@@ -274,8 +284,8 @@ class Rewriting {
 
 void ProgramBuilder::join_angles() {
   const bool has_angles = std::ranges::any_of(program_.atoms, [](const Atom& a) {
-    return a.function->name == "THETA" || a.function->name == "PSI" || a.function->name == "YAW" ||
-           a.function->name == "PITCH" || a.function->name == "INCANG" || a.function->name == "ROLL";
+    constexpr std::array angles = {THETA, PSI, YAW, PITCH, INCANG, ROLL};
+    return a.function->measure && std::ranges::find(angles, *a.function->measure) != angles.end();
   });
   if (has_angles) Rewriting(program_).run();
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include "expression/program_partials.h"
@@ -23,9 +22,7 @@ constexpr double infinite_order = std::numeric_limits<double>::infinity();
 // The order in which a function grows at a point where its slope is infinite, of one of its argument; 0 if unknown.
 double order_of_function(const ExpressionNode& node) {
   if (node.kind == Kind::power) return std::max(node.constant, 0.0);
-  if (node.kind != Kind::call) return 0;
-  const std::string_view name = node.function->name;
-  return name == "SQRT" || name == "ASIN" || name == "ACOS" ? 0.5 : 0.0;
+  return node.kind == Kind::call ? node.function->growth_at_infinity : 0;
 }
 
 }  // namespace
@@ -76,7 +73,7 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
     if (node.kind == Kind::call || node.kind == Kind::spline) {
       // Of what functions do beyond their slope no more is known than that they are continuous and smooth but for
       // kinks, where the slope is zero by convention.
-      const bool kink = node.kind == Kind::call && (node.function->name == "ABS" || node.function->name == "SIGN");
+      const bool kink = node.kind == Kind::call && node.function->flat_at_kinks;
       order[i] = std::min(order[i], slowest);
       smooth[i] = smooth[i] && (kink ? slowest >= 1 : remainder > 1);
       continue;

@@ -175,7 +175,7 @@ BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binde
       break;
     case AtomFamily::marker_measure: {
       a.kind = Kind::measure;
-      a.measure = *find_measure(f.name);
+      a.measure = *f.measure;
       a.order = f.order;
       a.places.fill({&signals.layout().marker(signals.marker(0))});
       for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {

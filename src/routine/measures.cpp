@@ -126,6 +126,6 @@ std::optional<std::vector<Atom>> measure_list(std::string_view name, std::span<c
 bool reads_modes(const Atom& atom) {
   return atom.function->reads == DataSource::unknown && atom.function->statement == modal_lists[0].statement;
 }
-bool reads_modal_rate(const Atom& atom) { return atom.function->name == modal_lists[1].name; }
+bool reads_modal_rate(const Atom& atom) { return atom.function == &modal_lists[1]; }
 
 }  // namespace dynalin

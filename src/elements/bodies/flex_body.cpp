@@ -65,7 +65,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
     }
     const auto axes = orientation({f.angles, f.z_point, f.x_point, false, "REULER", "ZG", "XG"}, f.origin, reader);
     if (axes) f.axes = *axes;
-    for (const auto& [word, at] : {std::pair{"MATRICES", &f.matrices_at},
+    for (const auto& [word, at] : {std::pair<std::string_view, Span*>{"MATRICES", &f.matrices_at},
                                    {modal_starts.displacement, &f.displacements_at},
                                    {modal_starts.velocity, &f.rates_at},
                                    {"MODAL_EXACT_DISP", &f.held_displacements_at},

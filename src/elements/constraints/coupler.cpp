@@ -24,6 +24,7 @@ struct Coupler {
   std::vector<double> scales;
   std::vector<std::string> types;
   Expression function;
+  std::vector<DrivenFreedom> freedoms;  // of each joint
 
   static constexpr std::array<Argument<Coupler>, 4> arguments = {{
       {.name = "JOINTS", .slot = &Coupler::joints, .required = true, .help = "two or three joints"},
@@ -35,6 +36,12 @@ struct Coupler {
        .ends = "SCALES"},
   }};
 };
+
+std::optional<DrivenFreedom> freedom_of(std::string_view type) {
+  if (type == "T") return DrivenFreedom::translation;
+  if (type == "R") return DrivenFreedom::rotation;
+  return std::nullopt;
+}
 
 class CouplerSet final : public TypedSet<Coupler> {
  public:
@@ -76,12 +83,15 @@ class CouplerSet final : public TypedSet<Coupler> {
     if (!c.types.empty() && c.types.size() != n) {
       reader.error("wrong-count", reader.at("TYPE"), fmt::format("TYPE of {} needs {} words", name, n));
     }
-    for (const std::string& type : c.types) {
-      if (type == "T" || type == "R") continue;
-      reader.error("unknown-word", reader.at("TYPE"), fmt::format("TYPE takes T and R, not {}", type));
+    c.freedoms.assign(n, DrivenFreedom::only);
+    for (std::size_t j = 0; j < c.types.size(); ++j) {
+      const auto freedom = freedom_of(c.types[j]);
+      if (!freedom)
+        reader.error("unknown-word", reader.at("TYPE"), fmt::format("TYPE takes T and R, not {}", c.types[j]));
+      if (freedom && c.types.size() == n) c.freedoms[j] = *freedom;
     }
     const auto is_same = [&](std::size_t a, std::size_t b) {
-      return c.joints[a] == c.joints[b] && (c.types.size() != n || c.types[a] == c.types[b]);
+      return c.joints[a] == c.joints[b] && c.freedoms[a] == c.freedoms[b];
     };
     if (is_same(0, 1) || (n == 3 && (is_same(0, 2) || is_same(1, 2)))) {
       reader.error("same-joint-twice", reader.at("JOINTS"),
@@ -95,8 +105,8 @@ class CouplerSet final : public TypedSet<Coupler> {
       const Coupler& c = elements[k];
       JointRelation relation;
       for (std::size_t j = 0; j < c.joints.size(); ++j) {
-        const char type = c.types.empty() ? ' ' : c.types[j][0];
-        const auto freedom = joint_freedom(model, labels[k], c.joints[j], type, diagnostics);
+        const DrivenFreedom wanted = c.freedoms.empty() ? DrivenFreedom::only : c.freedoms[j];
+        const auto freedom = joint_freedom(model, labels[k], c.joints[j], wanted, diagnostics);
         if (freedom) relation.terms.push_back({*freedom, c.scales[j]});
       }
       const auto& routines = c.function.program().routines;

@@ -16,6 +16,7 @@ struct Cylindrical {
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool rotates = true;
   static constexpr bool translates = true;
+  static constexpr JointSurfaces surfaces = JointSurfaces::sleeve;
 
   template <class T>
   static std::array<T, 4> rows(const RelativeFrame<T>& I) {

@@ -68,7 +68,7 @@ class GearSet final : public TypedSet<Gear> {
     if (!joints) return;
     const std::string name = model.label(joint).full_text();
     if (!joints->rotates() && !joints->translates()) {
-      joint_freedom(model, labels[k], joint, ' ', diagnostics);
+      joint_freedom(model, labels[k], joint, DrivenFreedom::only, diagnostics);
       return;
     }
     const auto index = static_cast<std::size_t>(joint.index);

@@ -16,6 +16,8 @@ struct Hooke {
   static constexpr std::string_view axes =
       "the z axes lie along the shafts, x of I and y of J along the two bars of the cross";
   static constexpr Uses uses = Uses::both_orientations;
+  static constexpr JointSurfaces surfaces = JointSurfaces::cross;
+  static constexpr std::array<std::size_t, 2> bars = {0, 1};
 
   template <class T>
   static std::array<T, 4> rows(const RelativeFrame<T>& I) {

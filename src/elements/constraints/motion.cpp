@@ -376,7 +376,9 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
       if (!in_time) continue;
       m.function = std::move(*in_time);
       if (m.joint.valid()) {
-        const char wanted = m.rotation ? 'R' : m.translation ? 'T' : ' ';
+        const DrivenFreedom wanted = m.rotation      ? DrivenFreedom::rotation
+                                     : m.translation ? DrivenFreedom::translation
+                                                     : DrivenFreedom::only;
         const auto freedom = joint_freedom(model, labels[k], m.joint, wanted, diagnostics);
         if (!freedom) continue;
         m.i = freedom->i, m.j = freedom->j, m.kind = freedom->kind;

@@ -14,6 +14,7 @@ struct Revolute {
   static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "DZ", "Zi.Xj", "Zi.Yj"};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool rotates = true;
+  static constexpr JointSurfaces surfaces = JointSurfaces::hinge;
 
   template <class T>
   static std::array<T, 5> rows(const RelativeFrame<T>& I) {

@@ -12,6 +12,7 @@ struct Spherical {
   static constexpr std::string_view summary = "Ball: the origins coincide, all rotations are free.";
   static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
   static constexpr Uses uses = Uses::no_orientation;
+  static constexpr JointSurfaces surfaces = JointSurfaces::ball;
 
   template <class T>
   static std::array<T, 3> rows(const RelativeFrame<T>& I) {

@@ -14,6 +14,7 @@ struct Translational {
   static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "Zi.Xj", "Zi.Yj", "Xi.Yj"};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool translates = true;
+  static constexpr JointSurfaces surfaces = JointSurfaces::slide;
 
   template <class T>
   static std::array<T, 5> rows(const RelativeFrame<T>& I) {

@@ -15,6 +15,8 @@ struct Universal {
   static constexpr std::string_view axes =
       "the z axes lie along the two bars of the cross; with z axes along the shafts it is a HOOKE";
   static constexpr Uses uses = Uses::both_orientations;
+  static constexpr JointSurfaces surfaces = JointSurfaces::cross;
+  static constexpr std::array<std::size_t, 2> bars = {2, 2};
 
   template <class T>
   static std::array<T, 4> rows(const RelativeFrame<T>& I) {

@@ -15,6 +15,8 @@
 //                                                  // from the value, and every row is measured from the drawing
 //     double period() const;                       // rows that contain an angle repeat with it
 //     static constexpr std::string_view axes;      // what its axes stand for, said where they are drawn impossibly
+//     static constexpr JointSurfaces surfaces;     // on which it slips, where FRICTION may act
+//     static constexpr std::array<std::size_t, 2> bars;  // of a cross: which axes of I and of J lie along its bars
 //
 // Velocity and acceleration rows, their coefficients, reactions and geometric stiffness follow. The reaction of
 // row k is λ_k times its gradient: force and torque on I; the opposite acts on J's body at the same point.
@@ -42,6 +44,7 @@
 namespace dynalin {
 
 enum class Uses : std::uint8_t { no_orientation, orientation_of_J, both_orientations };
+enum class JointSurfaces : std::uint8_t { none, slide, hinge, sleeve, cross, ball };
 
 inline constexpr std::string_view obsolete_friction = "obsolete, ignored";
 
@@ -101,7 +104,7 @@ struct PrimitiveArguments {
   }};
 };
 
-// What MOTION and other relations need to know of a joint.
+// What MOTION, other relations and FRICTION need to know of a joint.
 class JointSetBase : public ElementSet {
  public:
   using ElementSet::ElementSet;
@@ -109,6 +112,8 @@ class JointSetBase : public ElementSet {
   virtual MarkerId marker_J(std::size_t) const = 0;
   virtual bool rotates() const = 0;
   virtual bool translates() const = 0;
+  virtual JointSurfaces surfaces() const = 0;
+  virtual std::array<std::size_t, 2> bars() const = 0;  // of a cross
 };
 
 // Angle from x_J to x_I about z_J, and displacement of I along z_J.
@@ -346,6 +351,14 @@ class JointSet final : public JointSetBase {
   bool translates() const override {
     if constexpr (requires { E::translates; }) return E::translates;
     return false;
+  }
+  JointSurfaces surfaces() const override {
+    if constexpr (requires { E::surfaces; }) return E::surfaces;
+    return JointSurfaces::none;
+  }
+  std::array<std::size_t, 2> bars() const override {
+    if constexpr (requires { E::bars; }) return E::bars;
+    return {};
   }
 
  private:

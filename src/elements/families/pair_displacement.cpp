@@ -33,8 +33,8 @@ void PairDisplacement::wrench(const Motion& motion, double lambda, std::int32_t 
   if (with_partials) add_multiplier(displacement(kind_, path::nested(out.pair.relative)), row, out);
 }
 
-std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel& user, JointRef joint, char kind,
-                                          Diagnostics& diagnostics) {
+std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel& user, JointRef joint,
+                                          DrivenFreedom wanted, Diagnostics& diagnostics) {
   const auto* joints = dynamic_cast<const JointSetBase*>(&model.set(joint));
   if (!joints) return std::nullopt;
   const auto index = static_cast<std::size_t>(joint.index);
@@ -53,7 +53,9 @@ std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel
     return std::nullopt;
   }
   const bool both = joints->rotates() && joints->translates();
-  if ((kind == ' ' && both) || (kind == 'R' && !joints->rotates()) || (kind == 'T' && !joints->translates())) {
+  const bool unclear = wanted == DrivenFreedom::only && both;
+  if (unclear || (wanted == DrivenFreedom::rotation && !joints->rotates()) ||
+      (wanted == DrivenFreedom::translation && !joints->translates())) {
     diagnostics.error("wrong-freedom", user.at,
                       fmt::format("{} must name the freedom of {} that it drives", user.full_text(), name),
                       both                ? "it has two, a rotation and a translation"
@@ -61,7 +63,7 @@ std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel
                                           : "it has one, a translation");
     return std::nullopt;
   }
-  const bool turns = kind == ' ' ? joints->rotates() : kind == 'R';
+  const bool turns = wanted == DrivenFreedom::only ? joints->rotates() : wanted == DrivenFreedom::rotation;
   return JointFreedom{joints->marker_I(index), joints->marker_J(index),
                       turns ? Displacement::rotation : translation_of_joint};
 }

@@ -62,12 +62,15 @@ class PairDisplacement {
   std::int32_t memory_ = -1;
 };
 
-// The displacement of a joint that a COUPLER or GEAR takes; nothing after a reported error. `kind` is 'R', 'T' or
-// ' ' for the only one the joint has.
+// Which freedom of a joint is meant: the only one that it has, where nothing says more.
+enum class DrivenFreedom : std::uint8_t { only, rotation, translation };
+
+// The displacement of a joint that a MOTION, COUPLER or GEAR takes; nothing after a reported error.
 struct JointFreedom {
   MarkerId i, j;
   Displacement kind = Displacement::rotation;
 };
-std::optional<JointFreedom> joint_freedom(const Model&, const ElementLabel& user, JointRef, char kind, Diagnostics&);
+std::optional<JointFreedom> joint_freedom(const Model&, const ElementLabel& user, JointRef, DrivenFreedom,
+                                          Diagnostics&);
 
 }  // namespace dynalin

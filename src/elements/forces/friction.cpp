@@ -26,6 +26,7 @@
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
 #include "elements/forces/friction_kernel.h"
+#include "elements/forces/friction_words.h"
 #include "model/model.h"
 
 namespace dynalin {
@@ -129,49 +130,34 @@ struct Friction {
   }};
 };
 
-// Arguments, and words of INPUTS, that say nothing of another joint.
+// Arguments, and words of INPUTS, that say nothing of joints with other surfaces.
 struct ReadBy {
-  std::string_view name, joints;
-};
-constexpr std::array read_by = {
-    ReadBy{"PIN_RADIUS", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL"},
-    ReadBy{"FRICTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
-    ReadBy{"BENDING_REACTION_ARM", "REVOLUTE HOOKE UNIVERSAL"},
-    ReadBy{"BALL_RADIUS", "SPHERICAL"},
-    ReadBy{"REACTION_ARM", "TRANSLATIONAL"},
-    ReadBy{"INITIAL_OVERLAP", "TRANSLATIONAL CYLINDRICAL"},
-    ReadBy{"OVERLAP_DELTA", "TRANSLATIONAL CYLINDRICAL"},
-    ReadBy{"FRICTION_FORCE_PRELOAD", "TRANSLATIONAL CYLINDRICAL"},
-    ReadBy{"FRICTION_TORQUE_PRELOAD", "REVOLUTE CYLINDRICAL HOOKE UNIVERSAL SPHERICAL"},
-    ReadBy{"I_YOKE", "HOOKE UNIVERSAL"},
-    ReadBy{"J_YOKE", "HOOKE UNIVERSAL"},
-    ReadBy{"BENDING_MOMENT", "TRANSLATIONAL REVOLUTE CYLINDRICAL HOOKE UNIVERSAL"},
-    ReadBy{"TORSIONAL_MOMENT", "TRANSLATIONAL"},
-};
+  std::string_view name;
+  std::array<bool, 6> surfaces{};  // by JointSurfaces
 
-// Which of `words` each written word begins; reports what begins none, and ALL or NONE beside others.
-bool find_words(const std::vector<std::string>& written, std::span<const std::string_view> words,
-                std::string_view argument, ElementReader& reader, std::vector<std::string_view>& found) {
-  found.clear();
-  for (const std::string& w : written) {
-    const auto is = [&](std::string_view word) { return !w.empty() && word.starts_with(w); };
-    const auto at = std::find_if(words.begin(), words.end(), is);
-    if (at == words.end()) {
-      reader.error(
-          "unknown-word", reader.at(argument),
-          fmt::format("{} of {} takes {}, not {}", argument, reader.label().text(), fmt::join(words, ", "), w));
-      return false;
-    }
-    found.push_back(*at);
+  constexpr ReadBy(std::string_view name_, std::initializer_list<JointSurfaces> list) : name(name_) {
+    for (const JointSurfaces s : list) surfaces[static_cast<std::size_t>(s)] = true;
   }
-  for (const std::string_view alone : {"ALL", "NONE"}) {
-    if (found.size() < 2 || std::find(found.begin(), found.end(), alone) == found.end()) continue;
-    reader.error("excluded-arguments", reader.at(argument),
-                 fmt::format("{} stands alone in {} of {}", alone, argument, reader.label().text()));
-    return false;
-  }
-  return true;
-}
+  bool of(JointSurfaces s) const { return surfaces[static_cast<std::size_t>(s)]; }
+};
+constexpr auto read_by = [] {
+  using enum JointSurfaces;
+  return std::array{
+      ReadBy{"PIN_RADIUS", {hinge, sleeve, cross}},
+      ReadBy{"FRICTION_ARM", {hinge, cross}},
+      ReadBy{"BENDING_REACTION_ARM", {hinge, cross}},
+      ReadBy{"BALL_RADIUS", {ball}},
+      ReadBy{"REACTION_ARM", {slide}},
+      ReadBy{"INITIAL_OVERLAP", {slide, sleeve}},
+      ReadBy{"OVERLAP_DELTA", {slide, sleeve}},
+      ReadBy{"FRICTION_FORCE_PRELOAD", {slide, sleeve}},
+      ReadBy{"FRICTION_TORQUE_PRELOAD", {hinge, sleeve, cross, ball}},
+      ReadBy{"I_YOKE", {cross}},
+      ReadBy{"J_YOKE", {cross}},
+      ReadBy{"BENDING_MOMENT", {slide, hinge, sleeve, cross}},
+      ReadBy{"TORSIONAL_MOMENT", {slide}},
+  };
+}();
 
 // One warning for those of the arguments that are written.
 void warn_of_unread(std::initializer_list<std::string_view> arguments, std::string_view beside, ElementReader& reader) {
@@ -186,43 +172,40 @@ void warn_of_unread(std::initializer_list<std::string_view> arguments, std::stri
 }
 
 void read_options(Friction& e, JointFriction& out, ElementReader& reader) {
-  std::vector<std::string_view> words;
-  const auto has = [&](std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); };
-
-  static constexpr std::array<std::string_view, 3> effects = {"ALL", "STICTION", "SLIDING"};
-  if (find_words(e.effect, effects, "EFFECT", reader, words) && !words.empty() && !has("ALL")) {
-    if (has("STICTION") != has("SLIDING"))
-      out.law.effect = has("STICTION") ? FrictionEffect::stiction : FrictionEffect::sliding;
+  if (const auto words = friction_words::read(e.effect, friction_words::effects, "EFFECT", reader);
+      words && !words->empty()) {
+    // Both together are all.
+    if (among(*words, FrictionEffect::stiction) != among(*words, FrictionEffect::sliding))
+      out.law.effect = words->front().choice;
   }
   if (out.law.effect == FrictionEffect::stiction) warn_of_unread({"MU_DYNAMIC"}, "EFFECT=STICTION", reader);
   if (out.law.effect == FrictionEffect::sliding) {
     warn_of_unread({"MU_STATIC", "TRANSITION_VELOCITY_COEFFICIENT", "MAX_STICTION_DEFORMATION"}, "EFFECT=SLIDING",
                    reader);
   }
-  static constexpr std::array<std::string_view, 6> inputs = {
-      "ALL", "NONE", "PRELOAD", "REACTION_FORCE", "BENDING_MOMENT", "TORSIONAL_MOMENT"};
-  if (find_words(e.inputs, inputs, "INPUTS", reader, words) && !words.empty() && !has("ALL")) {
-    out.of_force = has("REACTION_FORCE"), out.of_bending = has("BENDING_MOMENT");
-    out.of_torsion = has("TORSIONAL_MOMENT");
-    for (const std::string_view word : words) e.by_joint.emplace_back(word, reader.at("INPUTS"));
-    if (!has("PRELOAD")) {
+  const auto words = friction_words::read(e.inputs, friction_words::inputs, "INPUTS", reader);
+  if (words && !words->empty() && !among(*words, FrictionInput::all)) {
+    out.of_force = among(*words, FrictionInput::force), out.of_bending = among(*words, FrictionInput::bending);
+    out.of_torsion = among(*words, FrictionInput::torsion);
+    for (const auto& word : *words) e.by_joint.emplace_back(word.name, reader.at("INPUTS"));
+    if (!among(*words, FrictionInput::preload)) {
       if (out.force_preload > 0) warn_of_unread({"FRICTION_FORCE_PRELOAD"}, "INPUTS without PRELOAD", reader);
       if (out.torque_preload > 0) warn_of_unread({"FRICTION_TORQUE_PRELOAD"}, "INPUTS without PRELOAD", reader);
       out.force_preload = out.torque_preload = 0;
     }
   }
-  static constexpr std::array<std::string_view, 3> deltas = {"CONSTANT", "INCREASE", "DECREASE"};
-  if (find_words(e.overlap_delta, deltas, "OVERLAP_DELTA", reader, words))
-    out.overlap_growth = has("INCREASE") ? 1 : has("DECREASE") ? -1 : 0;
-  static constexpr std::array<std::string_view, 1> analyses = {"STATIC"};
-  if (find_words(e.inactive, analyses, "INACTIVE", reader, words)) out.rests_in_statics = has("STATIC");
+  if (const auto changes = friction_words::read(e.overlap_delta, friction_words::overlaps, "OVERLAP_DELTA", reader))
+    out.overlap_growth = among(*changes, OverlapChange::increase)   ? 1
+                         : among(*changes, OverlapChange::decrease) ? -1
+                                                                    : 0;
+  if (const auto without = friction_words::read(e.inactive, friction_words::rests, "INACTIVE", reader))
+    out.rests_in_statics = among(*without, FrictionRests::in_statics);
 }
 
 void read_bristles(const Friction& e, FrictionLaw& law, ElementReader& reader) {
-  std::vector<std::string_view> words;
-  static constexpr std::array<std::string_view, 2> formulations = {"ORIGINAL", "LUGRE"};
-  if (!find_words(e.formulation, formulations, "FORMULATION", reader, words)) return;
-  const bool lugre = !words.empty() && words.front() == "LUGRE";
+  const auto words = friction_words::read(e.formulation, friction_words::formulations, "FORMULATION", reader);
+  if (!words) return;
+  const bool lugre = !words->empty() && words->front().choice == FrictionFormulation::lugre;
   const auto excluded = [&](std::string_view argument) {
     if (!reader.given(argument)) return;
     reader.error("unexpected-argument", reader.at(argument),
@@ -308,32 +291,34 @@ class FrictionSet final : public TypedSet<Friction> {
     const Friction& e = elements[k];
     JointFriction& f = frictions_[k];
     const auto index = static_cast<std::size_t>(e.joint.index);
+    const JointSurfaces surfaces = joints.surfaces();
     const std::string_view type = joints.kind().variant;
     const std::string joint = model.label(e.joint).full_text();
     f.joint = model.label(e.joint).id;
     f.i = joints.marker_I(index), f.j = joints.marker_J(index);
     f.joint_acts = joints.active;
-    const auto yoke = [&](std::size_t axis_of_I, std::size_t axis_of_J) {
-      f.surface = e.j_yoke ? FrictionSurface::yoke_of_J : FrictionSurface::yoke_of_I;
-      f.axis = e.j_yoke ? axis_of_J : axis_of_I;
-    };
-    if (type == "TRANSLATIONAL") {
-      f.surface = FrictionSurface::slide;
-    } else if (type == "REVOLUTE") {
-      f.surface = FrictionSurface::hinge;
-    } else if (type == "CYLINDRICAL") {
-      f.surface = FrictionSurface::sleeve;
-    } else if (type == "SPHERICAL") {
-      f.surface = FrictionSurface::ball;
-    } else if (type == "HOOKE") {
-      yoke(0, 1);
-    } else if (type == "UNIVERSAL") {
-      yoke(2, 2);
-    } else {
-      diagnostics.error("unfit-joint", labels[k].at,
-                        fmt::format("{} refers to {}, a {} joint", labels[k].full_text(), joint, type),
-                        "friction acts in TRANSLATIONAL, REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL and SPHERICAL joints");
-      return;
+    switch (surfaces) {
+      case JointSurfaces::none:
+        diagnostics.error(
+            "unfit-joint", labels[k].at, fmt::format("{} refers to {}, a {} joint", labels[k].full_text(), joint, type),
+            "friction acts in TRANSLATIONAL, REVOLUTE, CYLINDRICAL, HOOKE, UNIVERSAL and SPHERICAL joints");
+        return;
+      case JointSurfaces::slide:
+        f.surface = FrictionSurface::slide;
+        break;
+      case JointSurfaces::hinge:
+        f.surface = FrictionSurface::hinge;
+        break;
+      case JointSurfaces::sleeve:
+        f.surface = FrictionSurface::sleeve;
+        break;
+      case JointSurfaces::cross:
+        f.surface = e.j_yoke ? FrictionSurface::yoke_of_J : FrictionSurface::yoke_of_I;
+        f.axis = joints.bars()[e.j_yoke ? 1 : 0];
+        break;
+      case JointSurfaces::ball:
+        f.surface = FrictionSurface::ball;
+        break;
     }
     // A ball holds point masses as well, but its friction turns them.
     if (f.surface == FrictionSurface::ball) {
@@ -344,7 +329,7 @@ class FrictionSet final : public TypedSet<Friction> {
     for (const auto& [name, at] : e.by_joint) {
       const auto by =
           std::find_if(read_by.begin(), read_by.end(), [&sought = name](const ReadBy& r) { return r.name == sought; });
-      if (by == read_by.end() || by->joints.find(type) != std::string_view::npos) continue;
+      if (by == read_by.end() || by->of(surfaces)) continue;
       diagnostics.warning("unread-argument", at,
                           fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
     }
