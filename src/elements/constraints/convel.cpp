@@ -13,7 +13,8 @@ struct Convel {
   static constexpr std::string_view variant = "CONVEL";
   static constexpr std::string_view summary =
       "Constant-velocity joint: what one shaft turns about its axis, the other turns about its own.";
-  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Xi.Yj-Yi.Xj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ, equal_angles};
   static constexpr std::string_view axes =
       "z points along each shaft away from the joint; with parallel x axes or parallel y axes it fits";
   static constexpr Uses uses = Uses::both_orientations;

@@ -12,7 +12,8 @@ struct Cylindrical {
   static constexpr std::string_view variant = "CYLINDRICAL";
   static constexpr std::string_view summary =
       "Sleeve: rotation about and translation along the common z axis are free.";
-  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "Zi.Xj", "Zi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, Zi_Xj, Zi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool rotates = true;
   static constexpr bool translates = true;

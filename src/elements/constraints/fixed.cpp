@@ -10,7 +10,8 @@ namespace {
 struct Fixed {
   static constexpr std::string_view variant = "FIXED";
   static constexpr std::string_view summary = "Weld: nothing is free.";
-  static constexpr std::array<std::string_view, 6> row_names = {"DX", "DY", "DZ", "Zi.Xj", "Zi.Yj", "Xi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ, Zi_Xj, Zi_Yj, Xi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>

@@ -12,7 +12,8 @@ struct Hooke {
   static constexpr std::string_view variant = "HOOKE";
   static constexpr std::string_view summary =
       "Cross with z axes along the shafts: rotations about x of I and about y of J are free.";
-  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Xi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ, Xi_Yj};
   static constexpr std::string_view axes =
       "the z axes lie along the shafts, x of I and y of J along the two bars of the cross";
   static constexpr Uses uses = Uses::both_orientations;

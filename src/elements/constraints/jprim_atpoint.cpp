@@ -10,7 +10,8 @@ namespace {
 struct Atpoint {
   static constexpr std::string_view variant = "ATPOINT";
   static constexpr std::string_view summary = "The origins coincide.";
-  static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ};
   static constexpr Uses uses = Uses::no_orientation;
 
   template <class T>

@@ -10,7 +10,8 @@ namespace {
 struct Inline {
   static constexpr std::string_view variant = "INLINE";
   static constexpr std::string_view summary = "The origin of I stays on the z axis of J.";
-  static constexpr std::array<std::string_view, 2> row_names = {"DX", "DY"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY};
   static constexpr Uses uses = Uses::orientation_of_J;
 
   template <class T>

@@ -10,7 +10,7 @@ namespace {
 struct Inplane {
   static constexpr std::string_view variant = "INPLANE";
   static constexpr std::string_view summary = "The origin of I stays in the xy plane of J.";
-  static constexpr std::array<std::string_view, 1> row_names = {"DZ"};
+  static constexpr std::array row_kinds = {PairRow::DZ};
   static constexpr Uses uses = Uses::orientation_of_J;
 
   template <class T>

@@ -10,7 +10,8 @@ namespace {
 struct Orientation {
   static constexpr std::string_view variant = "ORIENTATION";
   static constexpr std::string_view summary = "All axes are parallel.";
-  static constexpr std::array<std::string_view, 3> row_names = {"Zi.Xj", "Zi.Yj", "Xi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {Zi_Xj, Zi_Yj, Xi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>

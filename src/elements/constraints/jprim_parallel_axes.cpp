@@ -10,7 +10,8 @@ namespace {
 struct ParallelAxes {
   static constexpr std::string_view variant = "PARALLEL_AXES";
   static constexpr std::string_view summary = "The z axes are parallel.";
-  static constexpr std::array<std::string_view, 2> row_names = {"Zi.Xj", "Zi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {Zi_Xj, Zi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>

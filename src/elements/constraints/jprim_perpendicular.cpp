@@ -10,7 +10,7 @@ namespace {
 struct Perpendicular {
   static constexpr std::string_view variant = "PERPENDICULAR";
   static constexpr std::string_view summary = "The z axes are perpendicular.";
-  static constexpr std::array<std::string_view, 1> row_names = {"Zi.Zj"};
+  static constexpr std::array row_kinds = {PairRow::Zi_Zj};
   static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>

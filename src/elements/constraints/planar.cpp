@@ -12,7 +12,8 @@ struct Planar {
   static constexpr std::string_view variant = "PLANAR";
   static constexpr std::string_view summary =
       "Plate on a plane: two translations in the xy plane of J and the rotation about its z axis are free.";
-  static constexpr std::array<std::string_view, 3> row_names = {"DZ", "Zi.Xj", "Zi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DZ, Zi_Xj, Zi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
 
   template <class T>

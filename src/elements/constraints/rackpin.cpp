@@ -20,7 +20,7 @@ struct Rackpin {
 
   static constexpr std::string_view variant = "RACKPIN";
   static constexpr std::string_view summary = "Rack and pinion: I rolls along z of J on a pinion of diameter PD.";
-  static constexpr std::array<std::string_view, 1> row_names = {"DZ-PINION"};
+  static constexpr std::array row_kinds = {PairRow::pinion};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr std::string_view parameter = "PD";
 

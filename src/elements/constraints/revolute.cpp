@@ -11,7 +11,8 @@ namespace {
 struct Revolute {
   static constexpr std::string_view variant = "REVOLUTE";
   static constexpr std::string_view summary = "Hinge: one rotation about the common z axis is free.";
-  static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "DZ", "Zi.Xj", "Zi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ, Zi_Xj, Zi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool rotates = true;
   static constexpr JointSurfaces surfaces = JointSurfaces::hinge;

@@ -19,7 +19,7 @@ struct Screw {
 
   static constexpr std::string_view variant = "SCREW";
   static constexpr std::string_view summary = "Thread: I advances along z of J by PITCH in one turn.";
-  static constexpr std::array<std::string_view, 1> row_names = {"DZ-AZ"};
+  static constexpr std::array row_kinds = {PairRow::thread};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr std::string_view parameter = "PITCH";
 

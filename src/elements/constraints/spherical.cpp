@@ -10,7 +10,8 @@ namespace {
 struct Spherical {
   static constexpr std::string_view variant = "SPHERICAL";
   static constexpr std::string_view summary = "Ball: the origins coincide, all rotations are free.";
-  static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ};
   static constexpr Uses uses = Uses::no_orientation;
   static constexpr JointSurfaces surfaces = JointSurfaces::ball;
 

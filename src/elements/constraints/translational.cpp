@@ -11,7 +11,8 @@ namespace {
 struct Translational {
   static constexpr std::string_view variant = "TRANSLATIONAL";
   static constexpr std::string_view summary = "Slider: one translation along the common z axis is free.";
-  static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "Zi.Xj", "Zi.Yj", "Xi.Yj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, Zi_Xj, Zi_Yj, Xi_Yj};
   static constexpr Uses uses = Uses::both_orientations;
   static constexpr bool translates = true;
   static constexpr JointSurfaces surfaces = JointSurfaces::slide;

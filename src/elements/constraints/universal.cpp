@@ -11,7 +11,8 @@ namespace {
 struct Universal {
   static constexpr std::string_view variant = "UNIVERSAL";
   static constexpr std::string_view summary = "Cross: rotations about z of I and about z of J are free.";
-  static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "Zi.Zj"};
+  using enum PairRow;
+  static constexpr std::array row_kinds = {DX, DY, DZ, Zi_Zj};
   static constexpr std::string_view axes =
       "the z axes lie along the two bars of the cross; with z axes along the shafts it is a HOOKE";
   static constexpr Uses uses = Uses::both_orientations;

@@ -1,4 +1,4 @@
-// How axes of two markers lie as drawn. Rows that ask two axes to be perpendicular, "Zi.Xj", cannot be met from a
+// How axes of two markers lie as drawn. Rows that ask two axes to be perpendicular cannot be met from a
 // drawing in which the axes are parallel: there every turn leaves them as they are, to first order.
 #pragma once
 
@@ -6,12 +6,13 @@
 #include <string_view>
 
 #include "elements/families/markers.h"
+#include "elements/families/pair_row.h"
 
 namespace dynalin {
 
 // Reports the first such row of an element between I and J; `hint` is what the element's axes stand for.
-void check_drawn_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j,
-                      std::span<const std::string_view> row_names, std::string_view hint, Diagnostics&);
+void check_drawn_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j, std::span<const PairRow>,
+                      std::string_view hint, Diagnostics&);
 
 // Warns where the z axes of a torque between I and J are not parallel as drawn: it acts about that of J all the same.
 void warn_of_skew_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j, Diagnostics&);

@@ -4,7 +4,7 @@
 // A member of the family gives
 //
 //     template <class T> static std::array<T, n> rows(const RelativeFrame<T>& I);   // all zero when joined
-//     static constexpr std::array<std::string_view, n> row_names;                   // "Zi.Xj" …
+//     static constexpr std::array row_kinds;                // which they are: PairRow::Zi_Xj …
 //     static constexpr Uses uses;                           // the orientations of which bodies its rows depend on
 //     static constexpr std::string_view variant, summary;
 //
@@ -166,7 +166,7 @@ struct JointStart {
 // One joint with what its rows need beyond the markers.
 template <class E>
 struct Joint {
-  static constexpr std::size_t n = E::row_names.size();
+  static constexpr std::size_t n = E::row_kinds.size();
 
   E element;
   MarkerId i, j;
@@ -188,7 +188,7 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
     for (std::size_t k = 0; k < joints.size(); ++k) {
       Placed placed{joints[k], layout.marker(joints[k].i), layout.marker(joints[k].j), 0};
       for (std::size_t r = 0; r < n; ++r) {
-        const std::int32_t row = layout.add_row(labels[k], E::row_names[r]);
+        const std::int32_t row = layout.add_row(labels[k], name_of(E::row_kinds[r]));
         if (r == 0) placed.first_row = row;
       }
       for (const bool turns : {true, false}) {
@@ -232,14 +232,8 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
   std::size_t shares() const override { return shares_of(joints_.size()); }
 
   Axes held_axes() const override {
-    constexpr auto has = [](std::string_view row) {
-      for (const std::string_view name : E::row_names) {
-        if (name == row) return true;
-      }
-      return false;
-    };
-    if constexpr (!has("Zi.Xj") || !has("Zi.Yj")) return Axes::none;
-    return has("Xi.Yj") ? Axes::all : Axes::z;
+    if constexpr (!hold_z_axes(E::row_kinds)) return Axes::none;
+    return has_row(E::row_kinds, PairRow::Xi_Yj) ? Axes::all : Axes::z;
   }
 
   const StartSource* starts() const override { return this; }
@@ -328,10 +322,10 @@ class JointSet final : public JointSetBase {
         if constexpr (requires { E::axes; }) return E::axes;
         return std::string_view();
       }();
-      check_drawn_axes(model, labels[k], joint.i, joint.j, E::row_names, axes, diagnostics);
+      check_drawn_axes(model, labels[k], joint.i, joint.j, E::row_kinds, axes, diagnostics);
       const RelativeFrame<double> drawn = drawn_frame(model, joint.i, joint.j);
       if constexpr (requires { E::parameter; }) joint.offset = joint.rows(drawn);
-      if (E::row_names.size() >= 4 && (rotates() || translates()) && drawn.z.z < 0) {
+      if (E::row_kinds.size() >= 4 && (rotates() || translates()) && drawn.z.z < 0) {
         diagnostics.warning(
             "opposed-axes", labels[k].at,
             fmt::format("the z axes of the markers of {} point in opposite directions", labels[k].full_text()),
