@@ -12,6 +12,7 @@
 #include "mechanics/kernel.h"
 #include "mechanics/wrench_source.h"
 #include "model/schema.h"
+#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -90,6 +91,25 @@ constexpr Kind vector_force() {
               [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VectorForceSet<E>>(kind); },
               Kind::EnergyRows::one}
       .deactivatable();
+}
+
+// The routine that gives all components together. Said: what it is told of the statement, a structure of
+// user_routine.h.
+template <class Said, std::size_t n>
+constexpr std::array<RoutineKind, 1> routine_of_components(std::string_view name,
+                                                           const std::array<ValueArgument, n>& components) {
+  return {{{.routine = name,
+            .values = n,
+            .arguments = RoutineArguments::function,
+            .told =
+                [](const StatementWords& s) {
+                  Said said{};
+                  said.ID = s.id(), said.NPAR = s.constants().count(), said.PAR = s.constants().data();
+                  said.I = s.integer("I"), said.JFLOAT = s.integer("JFLOAT"), said.RM = s.integer("RM");
+                  return ToldToRoutine{std::make_shared<const Said>(said)};
+                },
+            .components = components,
+            .constants = components}}};
 }
 
 }  // namespace dynalin

@@ -3,7 +3,6 @@
 // A force and torque on I at its origin, with components in the axes of RM; the opposite acts on the body of the
 // floating marker JFLOAT at the same point. Components that are not written are zero.
 #include "elements/families/vector_force.h"
-#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -45,16 +44,7 @@ struct GForce : WrittenVectorForce {
 };
 
 constexpr std::array<ValueArgument, 6> components_of_gforce = {{{"FX"}, {"FY"}, {"FZ"}, {"TX"}, {"TY"}, {"TZ"}}};
-constexpr std::array<RoutineKind, 1> gforce_routines = {
-    {{.routine = "gfosub",
-      .values = 6,
-      .arguments = RoutineArguments::function,
-      .told =
-          [](const StatementWords& s) {
-            return told<sAdamsGforce>(s, s.integer("I"), s.integer("RM"), s.integer("JFLOAT"));
-          },
-      .components = components_of_gforce,
-      .constants = components_of_gforce}}};
+constexpr auto gforce_routines = routine_of_components<sAdamsGforce>("gfosub", components_of_gforce);
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 // A force on I at its origin, with components in the axes of RM; the opposite acts on the body of the floating marker
 // JFLOAT at the same point. Components that are not written are zero.
 #include "elements/families/vector_force.h"
-#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -37,16 +36,7 @@ struct VForce : WrittenVectorForce {
 };
 
 constexpr std::array<ValueArgument, 3> components_of_vforce = {{{"FX"}, {"FY"}, {"FZ"}}};
-constexpr std::array<RoutineKind, 1> vforce_routines = {
-    {{.routine = "vfosub",
-      .values = 3,
-      .arguments = RoutineArguments::function,
-      .told =
-          [](const StatementWords& s) {
-            return told<sAdamsVforce>(s, s.integer("I"), s.integer("JFLOAT"), s.integer("RM"));
-          },
-      .components = components_of_vforce,
-      .constants = components_of_vforce}}};
+constexpr auto vforce_routines = routine_of_components<sAdamsVforce>("vfosub", components_of_vforce);
 
 }  // namespace
 

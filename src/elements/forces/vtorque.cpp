@@ -3,7 +3,6 @@
 // A torque on I at its origin, with components in the axes of RM; the opposite acts on the body of the floating marker
 // JFLOAT at the same point. Components that are not written are zero.
 #include "elements/families/vector_force.h"
-#include "routine/statement_words.h"
 
 namespace dynalin {
 
@@ -37,16 +36,7 @@ struct VTorque : WrittenVectorForce {
 };
 
 constexpr std::array<ValueArgument, 3> components_of_vtorque = {{{"TX"}, {"TY"}, {"TZ"}}};
-constexpr std::array<RoutineKind, 1> vtorque_routines = {
-    {{.routine = "vtosub",
-      .values = 3,
-      .arguments = RoutineArguments::function,
-      .told =
-          [](const StatementWords& s) {
-            return told<sAdamsVtorque>(s, s.integer("I"), s.integer("JFLOAT"), s.integer("RM"));
-          },
-      .components = components_of_vtorque,
-      .constants = components_of_vtorque}}};
+constexpr auto vtorque_routines = routine_of_components<sAdamsVtorque>("vtosub", components_of_vtorque);
 
 }  // namespace
 
