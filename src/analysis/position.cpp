@@ -30,8 +30,7 @@ constexpr double exact_weight = 1e8;              // of coordinates that EXACT a
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {
   constexpr double parallel = 1e-3;
   if (static_cast<std::size_t>(k) >= system.layout().rows.size()) return {};
-  const std::string_view name = system.layout().rows[static_cast<std::size_t>(k)].name;
-  if (name.size() != 5 || name[2] != '.') return {};
+  if (!system.layout().rows[static_cast<std::size_t>(k)].perpendicular) return {};
   for (const auto& e : rows.row(k)) {
     if (std::abs(e.c.g) > parallel) return {};
   }

@@ -129,7 +129,8 @@ struct ConstraintRow {
   // Differential states that the row and its rate have with the factor −1: the courses of a MOTION. They enter rows
   // nowhere else.
   std::int32_t course = -1, course_rate = -1;
-  bool prescribed = false;  // moves parts from where they are drawn, as is meant: a MOTION
+  bool prescribed = false;     // moves parts from where they are drawn, as is meant: a MOTION
+  bool perpendicular = false;  // asks an axis of I and one of J to be perpendicular
 };
 
 // Bodies and coordinates of a flexible body whose deformation is small beside how it turns.

@@ -189,6 +189,7 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
       Placed placed{joints[k], layout.marker(joints[k].i), layout.marker(joints[k].j), 0};
       for (std::size_t r = 0; r < n; ++r) {
         const std::int32_t row = layout.add_row(labels[k], name_of(E::row_kinds[r]));
+        layout.rows[static_cast<std::size_t>(row)].perpendicular = perpendicular_axes(E::row_kinds[r]).has_value();
         if (r == 0) placed.first_row = row;
       }
       for (const bool turns : {true, false}) {
