@@ -12,6 +12,7 @@
 #include "analysis/original_method.h"
 #include "analysis/pushed_away.h"
 #include "analysis/static_refusal.h"
+#include "analysis/static_step.h"
 #include "analysis/turned_over.h"
 #include "analysis/unheld_motion.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/static_step.h"
+
 namespace dynalin {
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "analysis/comparable_scales.h"
 #include "analysis/static_equations.h"
+#include "analysis/static_step.h"
 
 namespace dynalin {
 

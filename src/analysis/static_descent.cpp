@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/static_step.h"
+
 namespace dynalin {
 
 namespace {

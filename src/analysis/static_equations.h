@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "analysis/augmented_system.h"
-#include "analysis/displace.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -122,10 +121,5 @@ class StaticEquations {
   Eigen::VectorXd own_scale_;          // by equation, the largest magnitude seen; a body's rows share theirs
   std::vector<double> own_stiffness_;  // by coordinate, as force per length
 };
-
-// The point moved by fraction · step, less where that is beyond the limits. `taken` becomes the factor of the step that
-// was gone.
-OperatingPoint moved(const System&, const OperatingPoint&, const AugmentedSystem&, const Eigen::VectorXd& step,
-                     double fraction, const StepLimits&, double* taken = nullptr);
 
 }  // namespace dynalin
