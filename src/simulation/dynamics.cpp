@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 
+#include "simulation/consistent_points.h"
 #include "simulation/event_density.h"
+#include "simulation/event_sides.h"
 #include "simulation/motion_equations.h"
 #include "simulation/moving_rows.h"
 #include "simulation/point_refinement.h"
@@ -30,19 +31,23 @@ constexpr double least_limit_of_moves =
     1e-8;  // of points that are made consistent, in lengths of the model and radians
 constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
 constexpr int steps_held_by_rounding = 500;
-constexpr std::size_t remark_limit = 50;
 // Of the range of a table, what steps may pass over: ERROR within these.
 constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
 // From an event to its sides, in roundings; what is less is no step.
 constexpr double way_around = 8, no_step = 1e3;
-constexpr double first_way_back = 1e3, next_way = 10, least_way_ahead = 4, most_way_ahead = 400;
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
  public:
   Dynamics(const System& system, const OutputTimes& times, const IntegratorSettings& settings,
            IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
-      : system_(system), times_(times), statistics_(statistics), watch_(watch), findings_(findings), events_(system) {
+      : system_(system),
+        times_(times),
+        statistics_(statistics),
+        watch_(watch),
+        findings_(findings),
+        points_(system, findings),
+        events_(system) {
     const double error = error_ = settings.error.value_or(default_integration_error);
     tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
     tolerance_.duration = times.end() - times.start();
@@ -108,27 +113,8 @@ class Dynamics {
   }
 
  private:
-  // Everything that belongs to an operating point, from positions, velocities and states that are nearly right.
   Result<OperatingPoint> consistent(OperatingPoint op) {
-    Findings found;
-    const double t = op.time, tolerance = op.redundancy_tolerance;
-    if (equations_) op.redundancy_tolerance = std::max(tolerance, left_out_limit());
-    auto result = assemble_position(system_, std::move(op), found)
-                      .and_then([&](OperatingPoint p) { return reconcile_velocity(system_, std::move(p), found); })
-                      .and_then([&](OperatingPoint p) { return accelerations(std::move(p), found); });
-    if (!result) {
-      Failure f = std::move(result.error());
-      f.message = fmt::format("at time {:g}: {}", t, f.message);
-      f.analysis = "dynamics";
-      return tl::unexpected(std::move(f));
-    }
-    result->redundancy_tolerance = tolerance;
-    findings_.redundant_rows = std::move(found.redundant_rows);
-    for (const Diagnostic& d : found.warnings.items()) {
-      if (said_.size() < remark_limit && said_.insert(d.message).second)
-        findings_.warnings.warning(d.code, d.at, d.message, d.hint);
-    }
-    return result;
+    return points_.at(std::move(op), equations_ ? left_out_limit() : 0.0);
   }
 
   // By more than the errors of a run. At a singular configuration constraints say nothing of motions that they hold
@@ -143,17 +129,6 @@ class Dynamics {
   }
 
   double left_out_limit() const { return std::max(least_left_out, left_out_errors * tolerance_.relative); }
-
-  // From those at hand; where that fails, as from a point as drawn.
-  Result<OperatingPoint> accelerations(OperatingPoint op, Findings& found) const {
-    auto near = solve_acceleration(system_, op, found);
-    if (near) return near;
-    const OperatingPoint drawn = system_.drawn();
-    op.acceleration = drawn.acceleration, op.lambda = drawn.lambda;
-    op.algebraic = drawn.algebraic, op.state_rate = drawn.state_rate;
-    auto far = solve_acceleration(system_, std::move(op), found);
-    return far ? std::move(far) : std::move(near);
-  }
 
   // Where there is nothing to integrate.
   Result<AdvancedPoint> pass_time() {
@@ -236,9 +211,16 @@ class Dynamics {
   // The integrator's step becomes the point. At an event values are not those of either side yet.
   void accept(bool event) {
     before_event_.reset();
-    if (event && !system_.layout().delay_calls.empty()) before_event_ = right_before_event();
+    if (event && !system_.layout().delay_calls.empty()) {
+      // What DELAYs read jumps there.
+      before_event_ = sides().before(point_, points_);
+      if (before_event_)
+        system_.record(*before_event_);
+      else
+        before_event_ = point_;
+    }
     equations_->unknowns().unpack(integrator_->time(), integrator_->y(), integrator_->yp(), point_);
-    if (event) leave_event();
+    if (event) sides().leave(point_);
     system_.remember(point_);
     if (before_event_) {
       point_.delays = before_event_->delays;
@@ -249,43 +231,7 @@ class Dynamics {
     equations_->accept(point_);
   }
 
-  // Where a function that switches is exactly zero, an IF is on neither side: the point goes on by some roundings.
-  void leave_event() {
-    std::vector<double> values(events_.size());
-    const double at = point_.time, rounding = std::numeric_limits<double>::epsilon() * std::abs(at);
-    for (double ahead = least_way_ahead; ahead <= most_way_ahead; ahead *= next_way) {
-      events_.values(system_.motion(point_), values);
-      bool is_zero = false;
-      for (std::size_t k = 0; k < events_.switch_count(); ++k)
-        is_zero = is_zero || (integrator_->crossed()[k] != 0 && values[k] == 0);
-      if (!is_zero) return;
-      point_.time = at + ahead * rounding;
-      integrator_->interpolate(point_.time, y_, yp_);
-      equations_->unknowns().unpack(point_.time, y_, yp_, point_);
-    }
-  }
-
-  // The other side of an event, recorded: what DELAYs read jumps there. The last point where that is all there is.
-  OperatingPoint right_before_event() {
-    const double at = integrator_->time();
-    const std::span<const int> crossed = integrator_->crossed().first(events_.switch_count());
-    std::vector<double> values(events_.size());
-    double back = first_way_back * std::numeric_limits<double>::epsilon() * (std::abs(at) + at - point_.time);
-    for (; at - back > point_.time; back *= next_way) {
-      OperatingPoint before = point_;
-      integrator_->interpolate(at - back, y_, yp_);
-      equations_->unknowns().unpack(at - back, y_, yp_, before);
-      Findings unused;
-      if (auto balanced = accelerations(before, unused)) before = std::move(*balanced);
-      events_.values(system_.motion(before), values);
-      bool is_beyond = false;
-      for (std::size_t k = 0; k < crossed.size(); ++k) is_beyond = is_beyond || crossed[k] * values[k] > 0;
-      if (is_beyond) continue;
-      system_.record(before);
-      return before;
-    }
-    return point_;
-  }
+  EventSides sides() { return {system_, events_, *integrator_, equations_->unknowns()}; }
 
   // After a step without event: whether the constraints that were left out still follow from the others, and whether
   // events may be looked for again.
@@ -411,7 +357,7 @@ class Dynamics {
   void note_rounding() {
     const std::int64_t unknown = integrator_->at_its_rounding();
     steps_at_rounding_ = unknown < 0 ? 0 : steps_at_rounding_ + 1;
-    if (steps_at_rounding_ != steps_held_by_rounding || !said_.insert("rounding-above-error").second) return;
+    if (steps_at_rounding_ != steps_held_by_rounding || !points_.is_new("rounding-above-error")) return;
     findings_.warnings.warning("rounding-above-error", {},
                                fmt::format("at time {:g} rounding leaves more of {} than the error that is allowed: "
                                            "steps are as short as it makes them, and a larger ERROR loses nothing",
@@ -452,6 +398,7 @@ class Dynamics {
   IntegrationStatistics& statistics_;
   const SimulationWatch& watch_;
   Findings& findings_;
+  ConsistentPoints points_;
   Events events_;
   double error_;  // ERROR
   ErrorTolerance tolerance_;
@@ -470,7 +417,6 @@ class Dynamics {
   EventDensity density_;
   bool stopped_ = false;                                             // by the watch
   double first_failure_ = -std::numeric_limits<double>::infinity();  // of those that are counted [time]
-  std::set<std::string> said_;                                       // remarks so far
 };
 
 }  // namespace
