@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynalin/linear_model.h"
@@ -60,6 +61,23 @@ class Study {
   // Through time, from the present one of a point on, which is made consistent first if it is not.
   Simulation simulate(const SimulationRequest& request) const { return simulate(as_drawn(), request); }
   Simulation simulate(const OperatingPoint& from, const SimulationRequest&) const;
+
+  // Values of function expressions, "DX(21,1)", "JOINT(3,0,2,0)/1000": of markers and elements by id, in the units of
+  // the dataset and radians, along the axes that the function names. Each in the order asked for; the model knows
+  // nothing of them afterwards. Of a point that is not consistent those of the one that agrees with constraints and
+  // forces. Throws Error where a function cannot be read, refers to what the model does not have, or has no value.
+  std::vector<double> measured(const OperatingPoint&, const std::vector<std::string>& functions) const;
+
+  // Writes all values of a point into a file, as SAVE/STATES of a command file does (docs/saved.md), to the last bit.
+  // It is there whole or, where Error is thrown, not at all; one of that name is replaced. `title` is kept in it.
+  void save(const OperatingPoint&, const std::string& path, const std::string& title = {}) const;
+  // The point of such a file, also of one of SAVE/SYSTEM. Values go to the elements of the same class and id. In the
+  // model that was saved, unchanged, it is what it was; in any other it is not consistent, and remarks of the point
+  // name what is not in both. Throws Error where the file cannot be read, was not written by SAVE, or was altered.
+  OperatingPoint reload(const std::string& path) const;
+  // The same as the text of such a file.
+  std::string saved_text(const OperatingPoint&, const std::string& title = {}) const;
+  OperatingPoint from_saved_text(const std::string& text) const;
 
   // A point that is not consistent is made so first.
   LinearModel linearize(const LinearRequest& request = {}) const { return linearize(as_drawn(), request); }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "base/read_file.h"
 #include "elements/catalogue.h"
+#include "output/saved_study.h"
 
 namespace dynalin {
 
@@ -90,24 +90,8 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
   return std::nullopt;
 }
 
-std::vector<SavedFile::Model::Further> files_of(const Model& model) {
-  std::vector<SavedFile::Model::Further> files;
-  for (const std::string& name : model.input_files) {
-    const auto kept =
-        std::ranges::find_if(model.further_sources, [&](const SourceRef& s) { return s->name() == name; });
-    if (kept != model.further_sources.end()) {
-      files.push_back({name, fingerprint((*kept)->text())});
-    } else if (const auto text = read_file(name)) {
-      files.push_back({name, fingerprint(*text)});
-    }
-  }
-  return files;
-}
-
 std::string fingerprint_of(const Job::Stage& stage) {
-  std::vector<std::string> more = stage.edits;
-  for (auto& file : files_of(*stage.model)) more.push_back(std::move(file.fingerprint));
-  return fingerprint(stage.dataset->source->text(), more);
+  return fingerprint_of(*stage.model, stage.dataset->source->text(), stage.edits);
 }
 
 std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::string& name,

@@ -18,9 +18,7 @@ std::optional<Job::Stage> stage_of_dataset(SourceRef, const SessionOptions&, Sta
 // Neighbouring commands make one model together, whose statements point into theirs: the commands have to outlive it.
 std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits, const SessionOptions&,
                                        std::vector<SourceRef>& texts, Diagnostics&);
-// The files that a model is made of besides its dataset, with fingerprints of what they hold now.
-std::vector<SavedFile::Model::Further> files_of(const Model&);
-// Of the dataset, its edits and these files.
+// Of the dataset, its edits and the files that it is made of besides.
 std::string fingerprint_of(const Job::Stage&);
 // `name` is that of the file, for messages; they point into the texts that are added.
 std::optional<Job::Stage> saved_stage(const SavedFile::Model&, const std::string& name, const SessionOptions&,

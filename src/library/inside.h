@@ -15,9 +15,11 @@ namespace dynalin::library {
 struct Model::Inside : MadeModel {
   std::vector<Remark> remarks;
   ReadingOptions options;
-  EditHistory edits;  // that made it out of other models
+  EditHistory edits;                 // that made it out of other models
+  std::vector<std::string> changes;  // all since the dataset was read, as they were stated
 
-  Inside(MadeModel, std::vector<Remark>, const ReadingOptions&, Statements, EditHistory);
+  Inside(MadeModel, std::vector<Remark>, const ReadingOptions&, Statements, EditHistory = {},
+         std::vector<std::string> changes = {});
   // The statements with their arguments. Those of a dataset as read have gone to bound its memory: the text, which
   // stays, is read once more when they are asked for.
   std::shared_ptr<const Dataset> statements() const;
@@ -54,6 +56,8 @@ struct LinearModel::Inside {
 // `said` are remarks that came before, and that the error takes along.
 [[noreturn]] void fail(const StudyFailure&, std::vector<Remark> said = {});
 [[noreturn]] void fail_for_missing(const std::string& what);
+
+ModelOptions model_options(const ReadingOptions&);
 
 // What a point says of the model; throws if it is one of another.
 const StudyPoint& point_of(const Model&, const OperatingPoint&);

@@ -1,5 +1,9 @@
 #include "dynalin/model.h"
 
+#include <fmt/format.h>
+
+#include <sstream>
+
 #include "base/read_file.h"
 #include "elements/catalogue.h"
 #include "library/inside.h"
@@ -15,10 +19,6 @@ constexpr std::string_view activate = "ACTIVATE", deactivate = "DEACTIVATE";
 [[noreturn]] void refuse(const Diagnostics& problems) { throw Error(render(problems), remarks_of(problems)); }
 [[noreturn]] void refuse(const Diagnostic& problem) { throw Error(render(problem), {remark_of(problem)}); }
 
-ModelOptions model_options(const ReadingOptions& options) {
-  return {options.user_value, {options.user_libraries, options.difference_user_routines}, options.pade_delays};
-}
-
 // A dataset whose arguments nobody needs but the model.
 std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const ReadingOptions& options) {
   if (!parsed.value.source) refuse(parsed.diagnostics);
@@ -26,26 +26,43 @@ std::shared_ptr<const Model::Inside> read_as(Parsed<Dataset> parsed, const Readi
   if (made.diagnostics.has_errors()) refuse(made.diagnostics);
   made.diagnostics.append(remarks_on(*made.value.system));
   return std::make_shared<const Model::Inside>(std::move(made.value), remarks_of(made.diagnostics), options,
-                                               Statements::released, EditHistory());
+                                               Statements::released);
 }
 
-std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, Parsed<EditedDataset> edit) {
+std::shared_ptr<const Model::Inside> rebuilt(const Model::Inside& before, Parsed<EditedDataset> edit,
+                                             const std::vector<std::string>& changes) {
   auto made = edited_model(before, std::move(edit), model_options(before.options));
   if (made.diagnostics.has_errors()) refuse(made.diagnostics);
   made.diagnostics.append(new_remarks(remarks_on(*made.value.system), remarks_on(*before.system)));
   EditHistory edits = before.edits.after(before.system, std::move(made.value.restated));
+  std::vector<std::string> all = before.changes;
+  all.insert(all.end(), changes.begin(), changes.end());
   return std::make_shared<const Model::Inside>(std::move(made.value), remarks_of(made.diagnostics), before.options,
-                                               Statements::kept, std::move(edits));
+                                               Statements::kept, std::move(edits), std::move(all));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 }  // namespace
 
+ModelOptions model_options(const ReadingOptions& options) {
+  return {options.user_value, {options.user_libraries, options.difference_user_routines}, options.pade_delays};
+}
+
 Model::Inside::Inside(MadeModel made, std::vector<Remark> said, const ReadingOptions& read, Statements statements,
-                      EditHistory history)
+                      EditHistory history, std::vector<std::string> stated)
     : MadeModel(std::move(made)),
       remarks(std::move(said)),
       options(read),
       edits(std::move(history)),
+      changes(std::move(stated)),
       statements_(statements == Statements::kept ? dataset : nullptr) {}
 
 std::shared_ptr<const Dataset> Model::Inside::statements() const {
@@ -78,7 +95,10 @@ Model Model::build(const std::string& title, const std::vector<StatedElement>& e
 Model Model::with(const std::vector<ParameterChange>& values) const {
   auto dataset = with_parameters(inside_->statements(), values, catalogue());
   if (!dataset) refuse(dataset.error());
-  return Model(rebuilt(*inside_, {std::move(*dataset), {}}));
+  std::vector<std::string> changes;
+  for (const ParameterChange& change : values)
+    changes.push_back(fmt::format("{}={:.17g}", change.parameter.text(), change.value));
+  return Model(rebuilt(*inside_, {std::move(*dataset), {}}, changes));
 }
 
 Model Model::edited(const std::string& commands) const {
@@ -100,7 +120,7 @@ Model Model::edited(const std::string& commands) const {
   }
   if (edit.diagnostics.has_errors()) refuse(edit.diagnostics);
   edit.value = std::move(editor).finish();
-  return Model(rebuilt(*inside_, std::move(edit)));
+  return Model(rebuilt(*inside_, std::move(edit), lines_of(commands)));
 }
 
 double Model::value(const ParameterRef& parameter) const {

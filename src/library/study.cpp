@@ -6,6 +6,7 @@
 #include "library/inside.h"
 #include "library/request_checks.h"
 #include "linear/physical_matrices.h"
+#include "study/measured.h"
 #include "study/modal_tables.h"
 
 namespace dynalin::library {
@@ -91,6 +92,12 @@ OperatingPoint Study::static_equilibrium(const OperatingPoint& from, const Stati
   check(request);
   const EquilibriumSettings& stated = model_.inside().system->model().settings.equilibrium;
   return handed_out(value_or_throw(dynalin::static_equilibrium(point_of(model_, from), options_of(stated, request))));
+}
+
+std::vector<double> Study::measured(const OperatingPoint& point, const std::vector<std::string>& functions) const {
+  const Model::Inside& model = model_.inside();
+  return value_or_throw(
+      dynalin::measured(point_of(model_, point), model.statements(), functions, model_options(model.options)));
 }
 
 LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& request) const {

@@ -9,9 +9,9 @@
 
 namespace dynalin {
 
-// The statements of the model must have their arguments. Where the point is not consistent the values are those of the
-// one that agrees with the constraints; the point itself stays.
-StudyResult<std::vector<double>> measured(const StudyPoint&, std::span<const std::string> functions,
-                                          const ModelOptions& = {});
+// `statements` are those of the model, with their arguments. Where the point is not consistent the values are those of
+// the one that agrees with the constraints; the point itself stays.
+StudyResult<std::vector<double>> measured(const StudyPoint&, const std::shared_ptr<const Dataset>& statements,
+                                          std::span<const std::string> functions, const ModelOptions& = {});
 
 }  // namespace dynalin

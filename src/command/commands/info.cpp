@@ -59,7 +59,7 @@ class Info final : public CommandAction {
       functions.push_back(quantity_->angles && k >= 3
                               ? fmt::format("{}({}, {})", quantity_->functions[k], i_, j_)
                               : fmt::format("{}({}, {}, {})", quantity_->functions[k], i_, j_, rm_));
-    const auto values = measured(run.point, functions, model_options(run.options));
+    const auto values = measured(run.point, run.system().model().dataset, functions, model_options(run.options));
     if (!values) return tl::unexpected(values.error());
     const auto name = [](std::int64_t id) { return id == 0 ? std::string("ground") : fmt::format("MARKER/{}", id); };
     std::string text = fmt::format("\n  {} of {} relative to {} along the axes of {} at time {:.5E}\n",

@@ -2,12 +2,11 @@
 // made by the planner (planner.h), as every other one.
 #include "command/commands/reload.h"
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <fmt/ranges.h>
 
 #include "command/run_state.h"
 #include "command/stages.h"
+#include "output/saved_study.h"
 
 namespace dynalin::commands {
 
@@ -47,15 +46,6 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return action;
 }
 
-// "PART/2, PART/3 and 4 more"
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  const std::vector<std::string> first(names.begin(),
-                                       names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size())));
-  const std::string text = fmt::format("{}", fmt::join(first, ", "));
-  return names.size() <= most ? text : fmt::format("{} and {} more", text, names.size() - most);
-}
-
 constexpr CommandKind kind = {.name = "RELOAD",
                               .use = CommandUse::run,
                               .summary = "goes on from what SAVE has written",
@@ -77,33 +67,10 @@ StudyResult<void> Reload::run(RunState& run) const {
     for (const std::string& name : saved->system->environment) run.environment.set(name);
   }
   const Job::Stage& stage = run.job.stages[run.stage];
-  const bool same_model = saved->fingerprint == fingerprint_of(stage);
-  RestoredPoint restored = restored_point(saved->point, run.system());
-  if (!restored.not_here.empty())
-    run.remarks.say("reloaded-in-part",
-                    fmt::format("{} has values of {}, which the model does not have; they are left out", file,
-                                listed(restored.not_here)));
-  if (!restored.not_saved.empty())
-    run.remarks.say("reloaded-in-part", fmt::format("{} has no values of {}, which start as they are drawn", file,
-                                                    listed(restored.not_saved)));
-  if (!restored.others.empty())
-    run.remarks.say("reloaded-in-part",
-                    fmt::format("{} has other coordinates of {} than the model; they are not taken, and these start as "
-                                "they are drawn",
-                                file, listed(restored.others)));
-  const bool whole = restored.not_here.empty() && restored.not_saved.empty() && restored.others.empty();
-  StudyPoint& point = run.point;
-  point.values = std::move(restored.point);
-  point.values.initial_conditions = run.settings.initial_conditions;
-  point.started = saved->started;
-  // In another model the same values need not agree with the constraints, and forces are others.
-  point.consistent = saved->consistent && whole && same_model;
-  point.restated = saved->restated;
-  point.redundant_rows = saved->redundant_rows;
-  point.statics.reset();
-  if (saved->statics && point.consistent)
-    point.statics = StaticSolution{saved->statics->iterations, saved->statics->imbalance,
-                                   restored_point(saved->statics->at_rest, run.system()).point};
+  ReloadedPoint found = reloaded(*saved, run.point.system, fingerprint_of(stage), file);
+  run.remarks.say(found.remarks);
+  run.point = std::move(found.point);
+  run.point.values.initial_conditions = run.settings.initial_conditions;
   run.shown = false;
   fmt::print(run.message, "  Reloaded {} at time {:.9E} from {}{}\n", system ? "the system" : "the states", run.time(),
              file, saved->title.empty() ? "" : ": " + saved->title);

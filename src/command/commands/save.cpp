@@ -11,7 +11,7 @@
 #include "command/output_plan.h"
 #include "command/run_state.h"
 #include "command/stages.h"
-#include "output/saved_file.h"
+#include "output/saved_study.h"
 
 namespace dynalin::commands {
 
@@ -79,17 +79,9 @@ constexpr CommandKind kind = {.name = "SAVE",
 
 StudyResult<void> Save::run(RunState& run) const {
   const Job::Stage& stage = run.job.stages[run.stage];
-  const StudyPoint& point = run.point;
-  SavedFile saved;
-  saved.title = title, saved.model_title = stage.model->title;
-  saved.fingerprint = fingerprint_of(stage);
+  SavedFile saved = saved_study(run.point, fingerprint_of(stage));
+  saved.title = title;
   if (system) saved.system = saved_model(run, stage);
-  saved.started = point.started, saved.consistent = point.consistent;
-  saved.restated = point.restated, saved.redundant_rows = point.redundant_rows;
-  saved.point = saved_point(run.system(), point.values);
-  if (point.statics)
-    saved.statics = {point.statics->iterations, point.statics->imbalance,
-                     saved_point(run.system(), point.statics->at_rest)};
   const auto text = saved_text(saved);
   if (!text) return tl::unexpected(failure(text.error()));
   const std::string path = command_path(run.folder, file);
