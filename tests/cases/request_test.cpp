@@ -234,6 +234,9 @@ TEST(TextsOfRequests, are_split_at_commas_outside_of_quotes) {
   // The mark of continuation is one comma with that at the end of the line before.
   EXPECT_THAT(split_texts("a,\n, b\n, c", ','), ElementsAre("a", "b", "c"));
   EXPECT_THAT(split_texts(":x: y", ':'), ElementsAre("", "x", "y"));
+  EXPECT_THAT(split_names(":x:'y:z'"), ElementsAre("", "x", "y:z"));
+  EXPECT_THAT(split_names("a:b, c"), ElementsAre("a:b", "c"));
+  EXPECT_THAT(split_names("\"a:b\""), ElementsAre("a:b"));
   EXPECT_THAT(split_texts("Peter's tip, left", '\0'), ElementsAre("Peter's tip, left"));
 }
 

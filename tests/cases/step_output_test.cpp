@@ -208,6 +208,25 @@ TEST_F(StepOutputs, name_components_of_requests_as_the_dataset_does) {
   EXPECT_EQ(requests[6][2], "newton");
 }
 
+// Lists of words have colons between them elsewhere in the language.
+TEST_F(StepOutputs, name_components_of_requests_by_lists_with_colons) {
+  prepare(
+      "RESULTS/XRF\nREQUEST/1, VELOCITY, I=20, CNAMES=:u:'v:w', CUNITS=:mm/s, CLABELS=:speed, RESULTS_NAME=tip\n"
+      "REQUEST/2, F2=1\\F3=2\\CNAMES=:x:y\nREQUEST/3, F2=1\\CNAMES=\"\",\"a:b\"\n");
+  simulate(StepKind::kinematics, 0, 1, 1);
+  finish();
+  std::vector<json> requests;
+  for (const auto& entry : parsed(folder_ / "model.res")[0].at("map")) {
+    if (entry[3] == "Request") requests.push_back(entry);
+  }
+  ASSERT_EQ(requests.size(), 10u);
+  EXPECT_EQ(requests[0], json::parse(R"(["tip", "u", "mm/s", "Request", "1", "speed"])"));
+  EXPECT_EQ(requests[1], json::parse(R"(["tip", "v:w", "meter/sec", "Request", "1", null])"));
+  EXPECT_EQ(requests[7][1], "x");
+  EXPECT_EQ(requests[8][1], "y");
+  EXPECT_EQ(requests[9][1], "a:b");
+}
+
 TEST_F(StepOutputs, have_no_angles_of_what_does_not_turn) {
   prepare("RESULTS/XRF\nPOINT_MASS/9, QG=0,0,4, MASS=1, CM=90\nMARKER/90, POINT_MASS=9\nJPRIM/1, ATPOINT, I=90, J=1\n");
   simulate(StepKind::kinematics, 0, 1, 1);

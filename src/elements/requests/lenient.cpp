@@ -63,4 +63,9 @@ std::vector<std::string> split_texts(std::string_view written, char separator) {
   return list;
 }
 
+std::vector<std::string> split_names(std::string_view written) {
+  auto list = split_texts(written, ',');
+  return list.size() > 1 ? list : split_texts(written, ':');
+}
+
 }  // namespace dynalin

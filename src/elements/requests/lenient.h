@@ -35,5 +35,7 @@ const WrittenArgument* written_argument(const ElementReader&, std::string_view n
 // Texts with a separator between them, in quotes or not, any of them empty; a mark of continuation at the start of a
 // line counts as one with a comma before it. With a separator of zero the whole is one text.
 std::vector<std::string> split_texts(std::string_view written, char separator);
+// The same with colons between them, as lists of words have, where there is no comma outside of quotes.
+std::vector<std::string> split_names(std::string_view written);
 
 }  // namespace dynalin

@@ -101,9 +101,14 @@ std::string text_of(const ElementReader& reader, std::string_view name) {
   return list.empty() ? std::string() : list.front();
 }
 
-std::vector<std::string> texts_of(const ElementReader& reader, std::string_view name, char separator) {
+std::vector<std::string> names_of(const ElementReader& reader, std::string_view name) {
   const WrittenArgument* w = written_argument(reader, name);
-  return w && w->has_value ? split_texts(w->value_span().text(), separator) : std::vector<std::string>();
+  return w && w->has_value ? split_names(w->value_span().text()) : std::vector<std::string>();
+}
+
+std::vector<std::string> heads_of(const ElementReader& reader, std::string_view name) {
+  const WrittenArgument* w = written_argument(reader, name);
+  return w && w->has_value ? split_texts(w->value_span().text(), ':') : std::vector<std::string>();
 }
 
 constexpr std::size_t places_of_request = 8;  // but for VARIABLES, of which there are as many as are named
@@ -238,9 +243,9 @@ class RequestSet final : public TypedSet<RequestedValues> {
   static void read_texts(RequestInfo& info, Components& components, ElementReader& reader) {
     info.comment = text_of(reader, "COMMENT"), info.results_name = text_of(reader, "RESULTS_NAME");
     const bool in_order = reader.given("VARIABLES");
-    const auto names = texts_of(reader, "CNAMES", ','), units = texts_of(reader, "CUNITS", ','),
-               labels = texts_of(reader, "CLABELS", ',');
-    info.heads = texts_of(reader, "TITLE", ':');
+    const auto names = names_of(reader, "CNAMES"), units = names_of(reader, "CUNITS"),
+               labels = names_of(reader, "CLABELS");
+    info.heads = heads_of(reader, "TITLE");
     const std::size_t places = in_order ? components.size() : places_of_request;
     warn_of_surplus(names, places, "CNAMES", reader), warn_of_surplus(units, places, "CUNITS", reader);
     warn_of_surplus(labels, places, "CLABELS", reader), warn_of_surplus(info.heads, places_of_request, "TITLE", reader);
