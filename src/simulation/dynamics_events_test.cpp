@@ -59,6 +59,16 @@ TEST(DynamicsWithEvents, ends_where_a_sensor_says) {
 }
 
 // Its function ends at t = 0.5, behind where it triggers.
+// sin 2t has its maximum between outputs and steps, and comes within ERROR of what it is compared with.
+TEST(DynamicsWithEvents, end_where_a_sensor_is_touched) {
+  for (const std::string how : {"EQ", "GE"}) {
+    const Led r = lead(decay + "SENSOR/1, FUNCTION=SIN(2*TIME), VALUE=1.0005, ERROR=1E-3, RETURN, " + how + "\n", 3, 3);
+    EXPECT_THAT(r.said, HasSubstr("SENSOR/1 triggers at time 0.801")) << how;
+  }
+  const Led far = lead(decay + "SENSOR/1, FUNCTION=SIN(2*TIME), VALUE=1.0015, ERROR=1E-3, RETURN\n", 3, 3);
+  EXPECT_EQ(far.said, "");
+}
+
 TEST(DynamicsWithEvents, ends_where_a_sensor_says_before_its_function_does) {
   for (const double step : {1.0, 0.1}) {
     const Led r = lead(decay + "SENSOR/1, FUNCTION=SQRT(0.5-TIME), VALUE=0.1, LE, RETURN\n", 1, step);

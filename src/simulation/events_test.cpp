@@ -82,7 +82,7 @@ TEST(Events, of_equations_make_the_integration_begin_anew) {
 
 TEST(Events, of_what_nothing_follows_from_are_none) {
   Watched w("SENSOR/1, FUNCTION=ABS(DIF(1)-1), VALUE=5, EVALUATE=IF(DIF(1):1,2,3)\n");
-  EXPECT_EQ(w.events.size(), 1u);
+  EXPECT_EQ(w.events.size(), 3u);
 }
 
 TEST(Events, ge_triggers_upwards_once_until_its_condition_has_been_false) {
@@ -118,12 +118,38 @@ TEST(Events, the_same_crossing_again_is_the_same_event) {
     Watched w("SENSOR/1, FUNCTION=DIF(1), VALUE=1, PRINT, " + how + "\n");
     w.start(0);
     EXPECT_TRUE(w.go(1, 1 + 1e-12).output);
-    std::vector<int> up = {1};
+    std::vector<int> up = {1, 0, 0};
     w.op.state[0] = 1 - 1e-9;
     w.system->remember(w.op);
     w.op.state[0] = 1 + 1e-9;
     EXPECT_FALSE(w.events.at(up, w.op).output) << how;
   }
+}
+
+// VALUE ± ERROR is met by what comes as near and turns back.
+TEST(Events, a_function_that_turns_back_near_its_value_triggers_where_it_leaves) {
+  for (const std::string how : {"EQ", "GE", "LE"}) {
+    const double from = how == "LE" ? 2 : 0, near = how == "LE" ? 1.05 : 0.95;
+    Watched w("SENSOR/1, FUNCTION=DIF(1), VALUE=1, ERROR=0.1, PRINT, " + how + "\n");
+    EXPECT_FALSE(w.start(from).output) << how;
+    EXPECT_FALSE(w.go(1, near).output) << how;
+    EXPECT_TRUE(w.go(2, from).output) << how;
+    EXPECT_FALSE(w.go(3, near).output) << how;
+    EXPECT_TRUE(w.go(4, 1 + (1 - near)).output) << how << " passes";
+    EXPECT_FALSE(w.go(5, 2 - from).output) << how << " leaves on the other side";
+    // From the other side only EQ is met.
+    EXPECT_EQ(w.go(6, 2 - near).output, false) << how;
+    EXPECT_EQ(w.go(7, 2 - from).output, how == "EQ") << how;
+    EXPECT_FALSE(w.go(8, 2 - near).output) << how;
+    EXPECT_EQ(w.start(2 - near).output, how == "EQ") << how << " is near as the next simulation begins";
+  }
+  Watched angle("SENSOR/1, FUNCTION=DIF(1), VALUE=30D, EQ, ERROR=2D, ANGULAR, PRINT\n");
+  const double d = std::numbers::pi / 180;
+  EXPECT_FALSE(angle.start(0).output);
+  EXPECT_FALSE(angle.go(1, 29 * d).output);
+  EXPECT_TRUE(angle.go(2, 20 * d).output);
+  EXPECT_FALSE(angle.go(3, 209 * d).output);
+  EXPECT_FALSE(angle.go(4, 200 * d).output) << "half a turn further";
 }
 
 TEST(Events, a_condition_that_holds_at_the_start_triggers_at_once) {

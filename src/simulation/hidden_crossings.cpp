@@ -37,6 +37,10 @@ std::array<std::optional<Extremum>, 2> extrema(double v0, double v1, double v2, 
   return found;
 }
 
+double tolerance_of(double from, double to) {
+  return 100 * std::numeric_limits<double>::epsilon() * (std::abs(to) + std::abs(to - from));
+}
+
 }  // namespace
 
 bool HiddenCrossings::has_crossed(std::span<const double> values) const {
@@ -104,45 +108,51 @@ std::optional<double> HiddenCrossings::within_reach(double until) const {
   return first;
 }
 
+std::optional<double> HiddenCrossings::seen(double from, double to, std::span<const double> at_end,
+                                            const Values& values) {
+  const double h = to - from;
+  if (!(h > 4 * tolerance_of(from, to))) return std::nullopt;
+  looked_ = 0;
+  const auto known = [&](double part, std::span<const double> all) {
+    look(part, from, h, [&](double, std::span<double> v) { std::ranges::copy(all, v.begin()); });
+  };
+  known(0, before_);
+  look(third, from, h, values);
+  look(2 * third, from, h, values);
+  known(1, at_end);
+  // What is exactly zero where it begins has the sign that it takes.
+  for (std::size_t k = 0; k < before_.size(); ++k) {
+    if (before_[k] == 0) before_[k] = looks_[0].values[k] = looks_[1].values[k];
+  }
+  double beyond = 2;  // part of the step
+  if (has_crossed(looks_[1].values)) {
+    beyond = third;
+  } else if (has_crossed(looks_[2].values)) {
+    beyond = 2 * third;
+  }
+  for (const double part : suspects(at_end)) {
+    if (part >= beyond) break;
+    if (has_crossed(look(part, from, h, values).values)) beyond = part;
+  }
+  for (int k = 0; k < most_looks; ++k) {
+    const auto part = within_reach(beyond);
+    if (!part) break;
+    if (has_crossed(look(*part, from, h, values).values)) beyond = std::min(beyond, *part);
+  }
+  if (beyond > 1) return std::nullopt;
+  return from + beyond * h;
+}
+
 std::optional<double> HiddenCrossings::first(double from, double to, std::span<const double> at_end,
                                              const Values& values) {
   now_.resize(at_end.size());
-  const double h = to - from;
-  const double tolerance = 100 * std::numeric_limits<double>::epsilon() * (std::abs(to) + std::abs(h));
-  double beyond = 2;  // part of the step
-  if (h > 4 * tolerance) {
-    looked_ = 0;
-    const auto known = [&](double part, std::span<const double> all) {
-      look(part, from, h, [&](double, std::span<double> v) { std::ranges::copy(all, v.begin()); });
-    };
-    known(0, before_);
-    look(third, from, h, values);
-    look(2 * third, from, h, values);
-    known(1, at_end);
-    // What is exactly zero where it begins has the sign that it takes.
-    for (std::size_t k = 0; k < at_end.size(); ++k) {
-      if (before_[k] == 0) before_[k] = looks_[0].values[k] = looks_[1].values[k];
-    }
-    if (has_crossed(looks_[1].values)) {
-      beyond = third;
-    } else if (has_crossed(looks_[2].values)) {
-      beyond = 2 * third;
-    }
-    for (const double part : suspects(at_end)) {
-      if (part >= beyond) break;
-      if (has_crossed(look(part, from, h, values).values)) beyond = part;
-    }
-    for (int k = 0; k < most_looks; ++k) {
-      const auto part = within_reach(beyond);
-      if (!part) break;
-      if (has_crossed(look(*part, from, h, values).values)) beyond = std::min(beyond, *part);
-    }
-  }
-  if (beyond > 1) {
+  const double tolerance = tolerance_of(from, to);
+  const std::optional<double> beyond = seen(from, to, at_end, values);
+  if (!beyond) {
     begin(at_end);
     return std::nullopt;
   }
-  const double t = closed_in(from, from + beyond * h, tolerance, values);
+  const double t = closed_in(from, *beyond, tolerance, values);
   if (t - from <= 2 * tolerance) {  // the sign with which it begins was rounding
     begin(now_);
     return first(t, to, at_end, values);

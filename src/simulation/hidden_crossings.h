@@ -21,6 +21,9 @@ class HiddenCrossings {
   // The instant just behind the first change of a sign before the second instant, whose values are `at_end`: who calls
   // knows what changes there. Without one the next stretch begins at the second instant, else at what was found.
   std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&);
+  // An instant within the step at which a sign is another one than at its beginning, the first that is looked at, and
+  // not closed in on. The values of the beginning stay those of the step.
+  std::optional<double> seen(double from, double to, std::span<const double> at_end, const Values&);
   // Of what was found: 1 upwards, −1 downwards, 0 not.
   std::span<const int> crossed() const { return crossed_; }
 

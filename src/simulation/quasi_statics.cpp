@@ -7,6 +7,7 @@
 
 #include "analysis/displace.h"
 #include "simulation/events.h"
+#include "simulation/hidden_crossings.h"
 #include "simulation/pose_change.h"
 #include "simulation/prescribed_turning.h"
 
@@ -169,11 +170,29 @@ class QuasiStaticRun {
     return std::ranges::any_of(crossed_, [](int way) { return way != 0; });
   }
 
+  // Where what sensors watch turns back between two equilibria, the next one is where it is beyond.
+  void go_back_to_hidden(const std::vector<double>& before, OperatingPoint& next, std::vector<double>& after) {
+    const auto of_sensors = [&](const std::vector<double>& all) {
+      return std::span<const double>(all).subspan(events_.switch_count());
+    };
+    hidden_.begin(of_sensors(before));
+    const auto values = [&](double t, std::span<double> out) {
+      const auto between = solve(predicted(t), nearby_);
+      std::ranges::copy(of_sensors(between ? watched(*between) : before), out.begin());
+    };
+    const auto t = hidden_.seen(at_.time, next.time, of_sensors(after), values);
+    auto between = t ? solve(predicted(*t), nearby_) : tl::unexpected(Failure{});
+    if (!between) return;
+    next = std::move(*between);
+    after = watched(next);
+  }
+
   // Whether what sensors watch passes what it is compared with on the way to the next equilibrium, which then becomes
   // the first behind that. Nothing is located within a jump.
   bool cross(OperatingPoint& next, bool jumps) {
     if (events_.size() == events_.switch_count()) return false;
     std::vector<double> before = watched(at_), after = watched(next);
+    if (!jumps) go_back_to_hidden(before, next, after);
     double from = at_.time;
     const double width = instant * (times_.end() - times_.start());
     double beyond = 1e-3;  // of what is left: in turns on both sides of where a straight line meets zero
@@ -272,6 +291,7 @@ class QuasiStaticRun {
   const SimulationWatch& watch_;
   Findings& findings_;
   Events events_;
+  HiddenCrossings hidden_;
   PrescribedTurning turning_;
 
   OperatingPoint at_;

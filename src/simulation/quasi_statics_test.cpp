@@ -174,6 +174,29 @@ TEST(QuasiStatics, end_where_a_sensor_says_and_follow_what_it_evaluates) {
   }
 }
 
+// z = 1 + sin(π t)/4 is 1 at all outputs: what it does between them is seen all the same, and so is where it comes
+// within ERROR and turns back.
+TEST(QuasiStatics, sensors_see_what_turns_back_between_outputs) {
+  const std::string pulled =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=100, LENGTH=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=25*SIN(PI*TIME)\n"
+      "SENSOR/1, FUNCTION=DZ(20,1), ERROR=1E-3, RETURN, ";
+  const double pi = std::numbers::pi;
+  for (const auto& [how, time] : {std::pair{"VALUE=1.2, GE", std::asin(0.8) / pi},
+                                  {"VALUE=1.2499, EQ", std::asin(0.9996) / pi},
+                                  {"VALUE=1.2503, EQ", 1 - std::asin(0.9972) / pi},
+                                  {"VALUE=0.7497, LE", 2 - std::asin(0.9972) / pi}}) {
+    QuasiStaticRun r(pulled + how + "\n", 3, 3);
+    ASSERT_TRUE(r.end) << r.end.error().message;
+    EXPECT_EQ(r.end->end, SimulationEnd::returned) << how;
+    EXPECT_NEAR(r.end->point.time, time, 1e-9) << how;
+  }
+  QuasiStaticRun far(pulled + "VALUE=1.252\n", 3, 3);
+  ASSERT_TRUE(far.end);
+  EXPECT_EQ(far.end->end, SimulationEnd::reached);
+}
+
 // From 1.1 to 1.17 at t = 2.5, where another sensor adds to the force.
 TEST(QuasiStatics, sensors_see_what_jumps_where_others_act) {
   QuasiStaticRun r(

@@ -6,7 +6,8 @@
 //
 // ANGULAR: f is an angle, and VALUE with any number of whole turns is met. The instant is located to rounding. ERROR
 // says what counts as met where a simulation begins, and how far f leaves VALUE before the sensor is ready to trigger
-// again; passing VALUE the other way makes it ready as well. SENVAL(id) reads what EVALUATE gave when the sensor last
+// again; passing VALUE the other way makes it ready as well. A function that comes within ERROR of VALUE and turns back
+// before it has passed it has met it where it leaves. SENVAL(id) reads what EVALUATE gave when the sensor last
 // triggered, and 0 before that; it is remembered from one simulation to the next, as is whether the sensor is ready.
 // Sensors watch dynamics and kinematics; no statics, no linear model.
 #include <fmt/format.h>
@@ -41,7 +42,10 @@ struct Sensor {
       {.name = "EQ", .slot = &E::eq, .help = "triggers where FUNCTION passes VALUE (default)", .ends = "GE LE"},
       {.name = "GE", .slot = &E::ge, .help = "where it comes to VALUE from below", .ends = "EQ LE"},
       {.name = "LE", .slot = &E::le, .help = "where it comes to VALUE from above", .ends = "EQ GE"},
-      {.name = "ERROR", .slot = &E::error, .minimum = 0, .help = "how near to VALUE is near enough at the start"},
+      {.name = "ERROR",
+       .slot = &E::error,
+       .minimum = 0,
+       .help = "how near to VALUE is near enough at the start, and where FUNCTION turns back"},
       {.name = "TIME_ERROR", .slot = &E::time_error, .unit = "time", .minimum = 0, .help = "no effect: found exactly"},
       {.name = "ANGULAR", .slot = &E::angular, .help = "FUNCTION is an angle: whole turns do not count"},
       {.name = "BISECTION", .slot = &E::search, .help = "no effect: how the instant is searched for"},
@@ -81,7 +85,8 @@ class SensorKernel final : public Kernel, public EventSource {
     ExpressionScratch scratch;
     for (const Watch& w : watches_) {
       double& state = memory[static_cast<std::size_t>(w.state_kept)];
-      if (state != ready && w.is_past(w.distance(motion, scratch))) state = ready;
+      // What is near is left by an event.
+      if (state != ready && state != near && w.is_past(w.distance(motion, scratch))) state = ready;
     }
   }
 
@@ -104,27 +109,40 @@ class SensorKernel final : public Kernel, public EventSource {
   }
 
   const EventSource* events() const override { return this; }
-  std::size_t event_count() const override { return watches_.size(); }
+  // Of each VALUE, and the ends of what is near to it.
+  std::size_t event_count() const override { return 3 * watches_.size(); }
   void crossings(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const override {
     for (const Watch& w : watches_) {
       const double g = w.function.value(motion, scratch) - w.sensor->value;
-      out.add(w.sensor->angular ? std::sin(g) : g);
+      for (const double from : {g, g + w.sensor->error, g - w.sensor->error})
+        out.add(w.sensor->angular ? std::sin(from) : from);
     }
   }
   void act(const Motion& motion, std::span<const int> crossed, Memory& memory, EventAction& action) const override {
     ExpressionScratch scratch;
     for (std::size_t k = 0; k < watches_.size(); ++k) {
       const Watch& w = watches_[k];
-      const double way = crossed[k];
-      if (way == 0) continue;
+      const double way = crossed[3 * k];
+      const int lower = crossed[3 * k + 1], upper = crossed[3 * k + 2];
+      if (way == 0 && lower == 0 && upper == 0) continue;
       // The sine of an angle is zero half a turn from VALUE as well: there it has been passed the other way.
       const bool opposite = w.sensor->angular && std::abs(w.distance(motion, scratch)) > 0.5 * std::numbers::pi;
       double& state = memory[static_cast<std::size_t>(w.state_kept)];
       const int wanted = w.sensor->direction();
-      if (opposite || (wanted != 0 && way != wanted)) {
+      if (way != 0 && (opposite || (wanted != 0 && way != wanted))) {
         if (state == -way) state = ready;
-      } else if (state == ready || (wanted == 0 && state == -way)) {
+      } else if (way != 0 && (state == ready || state == near || (wanted == 0 && state == -way))) {
         state = way;
+        trigger(w, motion, scratch, memory, action);
+      }
+      if (opposite) continue;
+      // From below upwards, or from above downwards.
+      const bool comes = (wanted >= 0 && lower > 0) || (wanted <= 0 && upper < 0);
+      const bool leaves = (wanted >= 0 && lower < 0) || (wanted <= 0 && upper > 0);
+      if (comes && !leaves && state == ready) {
+        state = near;
+      } else if (leaves && state == near) {
+        state = ready;
         trigger(w, motion, scratch, memory, action);
       }
     }
@@ -136,15 +154,16 @@ class SensorKernel final : public Kernel, public EventSource {
       const double g = w.distance(motion, scratch);
       const int wanted = w.sensor->direction();
       const bool holds = wanted == 0 ? std::abs(g) <= w.sensor->error : wanted * g >= -w.sensor->error;
-      if (state != ready || !holds) continue;
+      if (state == near && !holds) state = ready;
+      if ((state != ready && state != near) || !holds) continue;
       state = wanted == 0 ? met_at_start : wanted;
       trigger(w, motion, scratch, memory, action);
     }
   }
 
  private:
-  // What the memory holds of each: ready to trigger, or the way in which it has met VALUE.
-  static constexpr double ready = 0, met_at_start = 2;
+  // What the memory holds of each: ready to trigger, near to VALUE without having met it, or the way in which it has.
+  static constexpr double ready = 0, met_at_start = 2, near = 3;
 
   struct Watch {
     const Sensor* sensor;
