@@ -304,10 +304,10 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Steps step
     std::vector<std::string> names;
     for (const std::int32_t k : contradicted) names.push_back(system.row_text(k));
     if (!names.empty()) {
-      return failure(fmt::format("the constraints contradict each other on accelerations: {} cannot hold together with "
-                                 "the others",
-                                 fmt::join(names, ", ")),
-                     "contradicting-constraints", names);
+      const std::string who = contradiction(system, scaled_gradients(system, equations.rows()),
+                                            equations.partition().active, contradicted.front());
+      return failure("the constraints contradict each other on accelerations: " + who, "contradicting-constraints",
+                     names);
     }
   }
   if (!solution->linear) {

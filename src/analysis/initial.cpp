@@ -5,25 +5,26 @@
 namespace dynalin {
 
 Result<OperatingPoint> initial_conditions(const System& system, const OperatingPoint& from, const Restated& restated,
-                                          Findings& findings, const LevelWatch& watch) {
-  const auto watched = [&](Level level, const auto& solve) {
+                                          Findings& findings, const LevelWatch& watch, Level last) {
+  const auto watched = [&](Level level, OperatingPoint begun, const auto& solve) -> Result<OperatingPoint> {
+    if (level > last) return begun;
     if (watch) watch(level, false);
-    Result<OperatingPoint> op = solve();
+    Result<OperatingPoint> op = solve(std::move(begun));
     if (op && watch) watch(level, true);
     return op;
   };
-  const auto assemble = [&] {
-    auto op = assemble_position(system, from, findings, restated);
+  const auto assemble = [&](OperatingPoint begun) {
+    auto op = assemble_position(system, std::move(begun), findings, restated);
     if (op) warn_of_moves(system, from, *op, findings.warnings);
     return op;
   };
-  return watched(Level::position, assemble)
-      .and_then([&](OperatingPoint op) {
-        return watched(Level::velocity, [&] { return reconcile_velocity(system, std::move(op), findings, restated); });
-      })
-      .and_then([&](OperatingPoint op) {
-        return watched(Level::acceleration, [&] { return solve_acceleration(system, std::move(op), findings); });
-      });
+  const auto reconcile = [&](OperatingPoint op) {
+    return reconcile_velocity(system, std::move(op), findings, restated);
+  };
+  const auto accelerate = [&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); };
+  return watched(Level::position, from, assemble)
+      .and_then([&](OperatingPoint op) { return watched(Level::velocity, std::move(op), reconcile); })
+      .and_then([&](OperatingPoint op) { return watched(Level::acceleration, std::move(op), accelerate); });
 }
 
 Result<OperatingPoint> initial_conditions(const System& system, Findings& findings) {

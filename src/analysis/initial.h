@@ -41,9 +41,9 @@ Result<OperatingPoint> solve_acceleration(const System&, OperatingPoint, Finding
 enum class Level { position, velocity, acceleration };
 // Called as each level begins and when it is done.
 using LevelWatch = std::function<void(Level, bool done)>;
-// The three levels in turn, with a word on what assembly moves.
+// The levels in turn up to the last one, with a word on what assembly moves.
 Result<OperatingPoint> initial_conditions(const System&, const OperatingPoint& from, const Restated&, Findings&,
-                                          const LevelWatch& = {});
+                                          const LevelWatch& = {}, Level last = Level::acceleration);
 // From the model as drawn, by all that the dataset states.
 Result<OperatingPoint> initial_conditions(const System&, Findings&);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/assembly_weights.h"
+#include "analysis/contradiction.h"
 #include "analysis/displace.h"
 #include "analysis/initial.h"
 #include "analysis/row_sizes.h"
@@ -225,6 +226,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
     double left = 0, above_rounding = 0;
     std::vector<std::string> contradicted;
     std::string_view stuck;  // of the first
+    std::int32_t first = -1;
     for (std::int32_t k = 0; k < rows.size(); ++k) {
       if (rows.level(k) != RowLevel::position) continue;
       const auto at = static_cast<std::size_t>(k);
@@ -235,7 +237,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
         left = std::max(left, relative);
         above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
       } else if (relative > std::max(op.redundancy_tolerance, position_tolerance) * (1 + 1e-6) + rounding) {
-        if (contradicted.empty()) stuck = stuck_axes(system, rows, k);
+        if (contradicted.empty()) stuck = stuck_axes(system, rows, k), first = k;
         contradicted.push_back(system.row_text(k));
       }
     }
@@ -244,11 +246,14 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
       if (contradicted.empty() && goes_on()) continue;
       if (contradicted.empty()) return finished();
       history.insert(history.begin(), contradicted.begin(), contradicted.end());
-      return tl::unexpected(Failure{"initial conditions",
-                                    fmt::format("the constraints contradict each other: {}{} cannot hold together "
-                                                "with the others (IC/ERROR is {:g} of a row's scale)",
-                                                contradicted.front(), stuck, op.redundancy_tolerance),
-                                    history, "contradicting-constraints"});
+      const std::string who =
+          stuck.empty() ? contradiction(system, scaled_gradients(system, rows), part.active, first)
+                        : fmt::format("{}{} cannot hold together with the others", contradicted.front(), stuck);
+      return tl::unexpected(
+          Failure{"initial conditions",
+                  fmt::format("the constraints contradict each other: {} (IC/ERROR is {:g} of a row's scale)", who,
+                              op.redundancy_tolerance),
+                  history, "contradicting-constraints"});
     }
     // Many turns take many steps, each as good as its part of the way promises.
     if (!ic.iteration_limit && part_gone < 1 && left <= (1 - 0.5 * part_gone) * before)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/contradiction.h"
 #include "analysis/initial.h"
 #include "analysis/outside_weight.h"
 #include "analysis/stated_shape.h"
@@ -77,12 +78,9 @@ bool follows(const System& system, const VelocityCondition& c, const Eigen::Vect
 struct LeastChange {
   Eigen::VectorXd velocity;
   std::vector<std::size_t> contradicted;
+  std::vector<bool> independent{};  // conditions
 };
-Result<LeastChange> least_change(const System& system, const Motion& motion,
-                                 const std::vector<VelocityCondition>& conditions, const Eigen::VectorXd& start,
-                                 double tolerance) {
-  const auto n = static_cast<Eigen::Index>(system.coordinates());
-  const auto m = static_cast<Eigen::Index>(conditions.size());
+std::vector<SparseRow> scaled_conditions(const System& system, const std::vector<VelocityCondition>& conditions) {
   std::vector<SparseRow> scaled(conditions.size());
   for (std::size_t k = 0; k < conditions.size(); ++k) {
     scaled[k].column = conditions[k].column;
@@ -90,8 +88,15 @@ Result<LeastChange> least_change(const System& system, const Motion& motion,
       scaled[k].value.push_back(conditions[k].coefficient[i] * system.coordinate_scale(conditions[k].column[i]));
     }
   }
+  return scaled;
+}
+Result<LeastChange> least_change(const System& system, const Motion& motion,
+                                 const std::vector<VelocityCondition>& conditions, const Eigen::VectorXd& start,
+                                 double tolerance) {
+  const auto n = static_cast<Eigen::Index>(system.coordinates());
+  const auto m = static_cast<Eigen::Index>(conditions.size());
   const std::vector<std::int32_t> order(system.preference().rbegin(), system.preference().rend());
-  const Elimination e = eliminate(std::move(scaled), static_cast<std::int32_t>(n), order);
+  const Elimination e = eliminate(scaled_conditions(system, conditions), static_cast<std::int32_t>(n), order);
 
   std::vector<Triplet> entries;
   add_norm(system, motion, 1.0, entries);
@@ -115,9 +120,10 @@ Result<LeastChange> least_change(const System& system, const Motion& motion,
         Failure{"velocity initial conditions", "the velocity conditions are singular", {}, "singular-constraints"});
   }
   lu.solve(x);
-  LeastChange result{x.col(0).head(n), {}};
+  LeastChange result{x.col(0).head(n), {}, {}};
   const double rounding = solution_rounding * fastest_of(system, result.velocity);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
+    result.independent.push_back(e.pivot_column[k] >= 0);
     if (e.pivot_column[k] < 0 && !follows(system, conditions[k], result.velocity, tolerance, rounding)) {
       result.contradicted.push_back(k);
     }
@@ -222,7 +228,9 @@ Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint&
     if (!hard) return tl::unexpected(hard.error());
     if (!hard->contradicted.empty()) {
       Failure f{"velocity initial conditions",
-                "the constraints contradict each other on velocities",
+                "the constraints contradict each other on velocities: " +
+                    contradiction(system, scaled_conditions(system, conditions), hard->independent,
+                                  static_cast<std::int32_t>(hard->contradicted.front())),
                 {},
                 "contradicting-constraints"};
       for (const std::size_t k : hard->contradicted) f.details.push_back(system.row_text(static_cast<std::int32_t>(k)));

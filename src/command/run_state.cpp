@@ -42,14 +42,14 @@ void RunState::print(const std::string& text) {
   json.add_printed(command, time(), text);
 }
 
-StudyResult<void> RunState::make_consistent() {
+StudyResult<void> RunState::make_consistent(Level last) {
   const auto tell = [this](Level level, bool done) {
     static constexpr std::array<std::string_view, 3> names = {"Displacement", "Velocity", "Acceleration"};
     const std::string title = fmt::format("{} Initial Conditions", names[static_cast<std::size_t>(level)]);
     done ? write_end(message, title) : write_begin(message, title);
   };
   const bool there = point.consistent;
-  auto found = initial_conditions(point, tell);
+  auto found = initial_conditions(point, tell, last);
   if (!found) return tl::unexpected(found.error());
   if (there)
     point = std::move(found->point);

@@ -68,8 +68,8 @@ class RunState {
   const Units& units() const { return job.model().units; }
   double time() const { return point.values.time; }
 
-  // A point whose levels agree, unless it is one already.
-  StudyResult<void> make_consistent();
+  // A point whose levels agree up to the last one, unless it is one already.
+  StudyResult<void> make_consistent(Level last = Level::acceleration);
   // A point that an analysis has found; it is not shown yet.
   void accept(FoundPoint);
   // What a simulation over time has cost.

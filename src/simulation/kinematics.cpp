@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/contradiction.h"
 #include "simulation/kinematic_equations.h"
 #include "simulation/motion_courses.h"
 #include "simulation/pose_interpolation.h"
@@ -305,6 +306,16 @@ class KinematicRun {
                    "wrong-derivatives", std::move(names));
   }
 
+  // Which of several redundant rows it is that will not hold is not known.
+  std::string contradicting(const OperatingPoint& here, const std::vector<std::string>& redundant) const {
+    const Partition& part = equations_.partition();
+    if (part.redundant.size() != 1) return list(redundant) + " cannot hold together with the others";
+    ConstraintRows rows;
+    rows.resize(system_.layout());
+    system_.constraints(system_.motion(here), rows);
+    return contradiction(system_, scaled_gradients(system_, rows), part.active, part.redundant.front());
+  }
+
   // Why no step leads on from the last accepted point.
   Failure explained() {
     if (refused_) return failure(at_.time, refused_->message, refused_->code, refused_->details);
@@ -323,11 +334,7 @@ class KinematicRun {
     if (missed == KinematicEquations::Missed::contradicted) {
       std::vector<std::string> rows;
       for (const std::int32_t k : equations_.partition().redundant) rows.push_back(system_.row_text(k));
-      const std::string named = list(rows);
-      return failure(at_.time,
-                     fmt::format("the constraints begin to contradict each other: {} cannot hold together with "
-                                 "the others",
-                                 named),
+      return failure(at_.time, "the constraints begin to contradict each other: " + contradicting(here, rows),
                      "contradicting-constraints", std::move(rows));
     }
     // What is defined here and not a moment later has ended.

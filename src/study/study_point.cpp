@@ -103,7 +103,7 @@ MarkerState marker_state(const System& system, const OperatingPoint& point, Mark
           plain(acceleration(frame.origin)), plain(body.wdot)};
 }
 
-StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& watch) {
+StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& watch, Level last) {
   if (from.consistent) {
     from.statics.reset();
     return FoundPoint{std::move(from), {}};
@@ -111,8 +111,13 @@ StudyResult<FoundPoint> initial_conditions(StudyPoint from, const LevelWatch& wa
   // An edited model goes on as it was but for what the edits state.
   const Restated stated = from.started ? from.restated : Restated::all();
   Findings findings;
-  auto op = initial_conditions(*from.system, from.values, stated, findings, watch);
+  auto op = initial_conditions(*from.system, from.values, stated, findings, watch, last);
   if (!op) return tl::unexpected(StudyFailure(op.error()));
+  if (last != Level::acceleration) {
+    from.values = std::move(*op);
+    from.statics.reset();
+    return FoundPoint{std::move(from), std::move(findings.warnings)};
+  }
   return found(std::move(from), std::move(*op), std::move(findings));
 }
 

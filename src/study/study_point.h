@@ -60,8 +60,9 @@ StudyPoint continued(const StudyPoint&, std::shared_ptr<const System> edited, co
 // A marker that is fixed on its body.
 MarkerState marker_state(const System&, const OperatingPoint&, MarkerId);
 
-// A point that is consistent already stays as it is, but it is no static solution any more.
-StudyResult<FoundPoint> initial_conditions(StudyPoint, const LevelWatch& = {});
+// A point that is consistent already stays as it is, but it is no static solution any more. Where the last level is not
+// that of accelerations the next analysis makes the others, with all that is stated about the start.
+StudyResult<FoundPoint> initial_conditions(StudyPoint, const LevelWatch& = {}, Level last = Level::acceleration);
 // From the pose of the point.
 StudyResult<FoundPoint> static_equilibrium(StudyPoint, const StaticsOptions&);
 // With the stability of the solution. The point must have one.

@@ -25,6 +25,58 @@ std::string slide(int id, const std::string& force, const std::string& z = "0") 
 
 double slope_of(const RunResult& r, std::size_t k = 0) { return r.matrix(k, "A")[0][1]; }
 
+// Whichever of the two is found not to hold, both are named, on each of the levels.
+TEST_F(InitialConditions, name_both_that_contradict_each_other) {
+  const std::string turned = "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n";
+  for (const char* of_time : {"0.1", "3*TIME", "4*TIME**2"}) {
+    const RunResult r = run(std::string(head) + turned + "MOTION/1, JOINT=1, ROTATION, FUNCTION=0\n" +
+                                "MOTION/2, JOINT=1, ROTATION, FUNCTION=" + of_time + "\nEND\n",
+                            "LINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 2);
+    EXPECT_NE(r.err.find("MOTION/1"), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("MOTION/2"), std::string::npos) << r.err;
+    EXPECT_EQ(r.err.find("the others"), std::string::npos) << r.err;
+    EXPECT_EQ(r.err.find("JOINT/1"), std::string::npos) << r.err;
+  }
+  // A MOTION against a joint that holds what it moves.
+  const RunResult r = run(std::string(head) + turned +
+                              "MARKER/21, PART=2\nMARKER/3, PART=1\nJOINT/2, FIXED, I=21, J=3\n"
+                              "MOTION/1, JOINT=1, ROTATION, FUNCTION=3*TIME\nEND\n",
+                          "LINEAR/EIGENSOL\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("MOTION/1"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("JOINT/2"), std::string::npos) << r.err;
+}
+
+// A crank that is drawn off its pin, driven at 3 rad/s from 2 rad/s that it starts with. Levels behind the last are as
+// before, and the next analysis makes them.
+TEST_F(InitialConditions, are_made_up_to_the_level_that_is_named) {
+  const std::string crank =
+      "Crank\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n"
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0.1,0,0, WZ=2\nMARKER/20, QP=1,0,0\nMARKER/21\n"
+      "JOINT/1, REVOLUTE, I=21, J=1\nEND\n";
+  const RunResult whole = run(crank, "SIMULATE/INITIAL\n");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const auto body = [](const RunResult& r, std::size_t k) { return r.result(k).at("operating_point").at("bodies")[0]; };
+  const auto end = body(whole, 0);
+  for (const bool velocity : {false, true}) {
+    const RunResult r = run(crank, std::string("SIM/INITIAL, ") + (velocity ? "VELOCITY" : "DISPLACEMENT") +
+                                       "\nSIMULATE/INITIAL\nSIM/INITIAL, DISP\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto first = body(r, 0);
+    EXPECT_EQ(first.at("position"), end.at("position"));
+    EXPECT_EQ(first.at("angular_velocity") == end.at("angular_velocity"), velocity);
+    EXPECT_NE(first.at("acceleration"), end.at("acceleration"));
+    EXPECT_EQ(r.result(0).at("operating_point").at("constraints")[0].at("multiplier"), 0);
+    EXPECT_EQ(body(r, 1), end) << "made by the next analysis";
+    EXPECT_EQ(body(r, 2), end) << "done already";
+    const std::string said = r.message.substr(0, r.message.find("command: SIMULATE/INITIAL"));
+    EXPECT_NE(said.find("End Displacement Initial Conditions"), std::string::npos);
+    EXPECT_EQ(said.find("Velocity Initial Conditions") != std::string::npos, velocity);
+    EXPECT_EQ(said.find("Acceleration Initial Conditions"), std::string::npos);
+  }
+}
+
 // w = w²/4 + c − z has the roots 2 (1 ∓ √(1 − c + z)), and at z = 0 the slope dw/dz = −1/√(1 − c) at the lower one.
 struct DoubleRoot {
   const char* c;

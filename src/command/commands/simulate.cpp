@@ -1,5 +1,6 @@
-// SIMULATE/{INITIAL_CONDITIONS | STATICS}: finds an operating point. SIMULATE/{KINEMATICS | DYNAMICS | TRANSIENT |
-// STATICS}, {END= | DURATION=} [, {DTOUT= | STEPS=}]: leads it through time.
+// SIMULATE/{INITIAL_CONDITIONS [, DISPLACEMENT | VELOCITY | ACCELERATION] | STATICS}: finds an operating point.
+// SIMULATE/{KINEMATICS | DYNAMICS | TRANSIENT | STATICS}, {END= | DURATION=} [, {DTOUT= | STEPS=}]: leads it through
+// time.
 #include "command/commands/simulate.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ struct Written {
   std::optional<std::int64_t> steps;
 
   using W = Written;
-  static constexpr std::string_view level = "with INITIAL_CONDITIONS; all three levels are always made";
+  static constexpr std::string_view level = "with INITIAL_CONDITIONS: the last level that is made";
   static constexpr std::array<Argument<W>, 12> arguments = {{
       {.name = "INITIAL_CONDITIONS",
        .slot = &W::initial,
@@ -89,6 +90,7 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   if (!sound) return nullptr;
   auto action = std::make_shared<Simulate>();
   action->initial_conditions = w.initial;
+  if ((w.displacement || w.velocity) && !w.acceleration) action->last = w.velocity ? Level::velocity : Level::position;
   if (w.kinematics) action->kind = SimulationKind::kinematics;
   if (w.dynamics) action->kind = SimulationKind::dynamics;
   if (w.transient) action->kind = SimulationKind::transient;
@@ -97,8 +99,8 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return action;
 }
 
-StudyResult<void> find_start(RunState& run) {
-  if (auto ready = run.make_consistent(); !ready) return ready;
+StudyResult<void> find_start(RunState& run, Level last) {
+  if (auto ready = run.make_consistent(last); !ready) return ready;
   const OperatingState state = operating_state(run.system(), run.point.values);
   run.show(StepKind::initial_conditions, state, run.point.values);
   run.json.add(run.command, state);
@@ -198,7 +200,7 @@ constexpr CommandKind kind = {.name = "SIMULATE",
 
 StudyResult<void> Simulate::run(RunState& run) const {
   if (kind) return run_over_time(run);
-  return initial_conditions ? find_start(run) : find_rest(run);
+  return initial_conditions ? find_start(run, last) : find_rest(run);
 }
 
 StudyResult<void> Simulate::run_over_time(RunState& run) const {

@@ -12,6 +12,7 @@ class Simulate final : public CommandAction {
   StudyResult<void> run(RunState&) const override;
 
   bool initial_conditions = false;     // else statics, or over time
+  Level last = Level::acceleration;    // of initial conditions
   std::optional<SimulationKind> kind;  // over time
   std::optional<double> end, duration, output_step;
   std::optional<std::int64_t> steps;
