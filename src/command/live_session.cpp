@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "base/remark_of.h"
 #include "command/interruption.h"
@@ -198,7 +199,8 @@ void LiveSession::close_job() {
   if (!run_) return;
   RunState& run = *run_;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  write_footer(run.message, ending_, elapsed.count());
+  const double cpu = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+  write_footer(run.message, ending_, elapsed.count(), cpu);
   RunFiles::Result added;
   if (!run.tables.view().empty())
     added = files_.add({{run.job.prefix + ".txt", [&](std::ostream& o) { o << run.tables.view(); }}});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <iosfwd>
 
 #include "command/planner.h"
@@ -47,6 +48,7 @@ class LiveSession {
   std::ostream& out_;
   std::ostream& err_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start_ = std::clock();
   JsonResults json_;
   RunFiles files_{plan_.inputs};
   std::unique_ptr<OutputFile> message_;  // the message file of run_

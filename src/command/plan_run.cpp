@@ -47,10 +47,21 @@ bool is_text_of_dataset(const std::string& name, std::string text, Sign sign) {
   });
 }
 
+// Whether a text begins as a command file does: with a command, or the name of a dataset that is there.
+bool begins_with_command_or_model(const std::string& path, const std::string& text) {
+  const std::string model = parse_command_file(std::make_shared<const SourceText>(path, text)).value.model;
+  if (model.empty()) return true;
+  std::error_code ec;
+  return fs::is_regular_file(with_extension((fs::path(path).parent_path() / model).string(), ".adm"), ec);
+}
+
+// A command file may define the ground part anew: its extension counts as long as it can be one.
 bool holds_dataset(const std::string& path) {
   auto text = read_file(path);
-  const Sign sign = has_extension(path, ".acf") ? Sign::ground_part : Sign::ground_part_or_units;
-  return text && is_text_of_dataset(path, std::move(*text), sign);
+  if (!text) return false;
+  const bool commands = has_extension(path, ".acf");
+  if (commands && begins_with_command_or_model(path, *text)) return false;
+  return is_text_of_dataset(path, std::move(*text), commands ? Sign::ground_part : Sign::ground_part_or_units);
 }
 
 // What a run begins with: its commands, and the dataset that it names without one of them.
@@ -72,7 +83,7 @@ class Reader {
                  "of the dataset: dynalin check model.adm, or dynalin run model.adm -c \"LINEAR/EIGENSOL\"\n");
       return std::nullopt;
     }
-    // What a file holds counts more than what it is called.
+    // A dataset may be called anything, a command file as well.
     const bool named_dataset = !piped && (has_extension(file, ".adm") || holds_dataset(file));
     if (has_commands && has_extension(file, ".acf") && !named_dataset) {
       fmt::print(err_,

@@ -180,11 +180,12 @@ void write_eigensolution(std::ostream& out, const EigenSolution& e, double cpu_s
   fmt::print(out, "\n  Eigensolution computation finished.\n\n");
 }
 
-void write_footer(std::ostream& out, RunEnding ending, double elapsed) {
+void write_footer(std::ostream& out, RunEnding ending, double elapsed, double cpu) {
   const std::string_view text = ending == RunEnding::finished ? "Finished -----"
                                 : ending == RunEnding::failed ? "Ended early: the run failed -----"
                                                               : "Ended early: the run was interrupted -----";
-  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s\n", text, elapsed);
+  const double share = elapsed > 0 ? 100 * cpu / elapsed : 0.0;
+  fmt::print(out, "\n\n{}\nElapsed time = {:.2f}s,  CPU time = {:.2f}s,  {:.2f}%\n", text, elapsed, cpu, share);
 }
 
 void write_eigen_table(std::ostream& out, const EigenSolution& e, const std::string& unit, bool with_bounds) {

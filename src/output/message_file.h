@@ -27,7 +27,8 @@ void write_eigensolution(std::ostream&, const EigenSolution&, double cpu_seconds
 void write_matrix_states(std::ostream&, const StateSpace&);
 void write_matrix_states(std::ostream&, const SecondOrder&);
 enum class RunEnding { finished, failed, interrupted };
-void write_footer(std::ostream&, RunEnding, double elapsed);
+// Seconds on the clock, and those of all processors together.
+void write_footer(std::ostream&, RunEnding, double elapsed, double cpu);
 
 // A table for the terminal: frequency, damping ratio, real and imaginary part; on request how far each eigenvalue may
 // be off and its condition number. `unit` is that of frequencies, "cycles/s".
