@@ -1,5 +1,6 @@
 #include "output/json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -33,6 +34,11 @@ class CommandResult {
       if (m.key == key) return m.value;
     }
     return members_.emplace_back(Member{std::string(key), {}, {}}).value;
+  }
+  // Whether it says which model follows this command.
+  bool begins_model(const std::string& command) const {
+    return members_.front().value == command &&
+           std::ranges::any_of(members_, [](const Member& m) { return m.key == "model"; });
   }
   void write_to(JsonText& out) const {
     out.open('{');
@@ -213,6 +219,10 @@ JsonResults::~JsonResults() = default;
 
 void JsonResults::add_plain(const std::string& command, double time) {
   if (!document_) return;
+  if (!document_->results.empty() && document_->results.back().begins_model(command)) {
+    document_->results.back()["time"] = time;
+    return;
+  }
   document_->results.push_back(CommandResult{{"command", command}, {"time", time}});
 }
 

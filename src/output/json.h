@@ -24,7 +24,8 @@ class JsonResults {
   explicit JsonResults(Kept = Kept::results);
   ~JsonResults();
   bool keeps_results() const { return document_ != nullptr; }
-  void add_plain(const std::string& command, double time);  // a command without numbers of its own
+  // A command without numbers of its own; one that has begun a further model has its result already.
+  void add_plain(const std::string& command, double time);
   // One that prints something.
   void add_printed(const std::string& command, double time, const std::string& text);
   // A further model of the run, whose results follow.

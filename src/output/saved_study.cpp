@@ -28,11 +28,11 @@ Diagnostics of_others(const RestoredPoint& restored, std::string_view name) {
     say(fmt::format("{} has values of {}, which the model does not have; they are left out", name,
                     listed(restored.not_here)));
   if (!restored.not_saved.empty())
-    say(fmt::format("{} has no values of {}, which start as they are drawn", name, listed(restored.not_saved)));
+    say(fmt::format("{} has no values of {}, which start as the model states them", name, listed(restored.not_saved)));
   if (!restored.others.empty())
     say(
-        fmt::format("{} has other coordinates of {} than the model; they are not taken, and these start as they are "
-                    "drawn",
+        fmt::format("{} has other coordinates of {} than the model; they are not taken, and these start as the model "
+                    "states them",
                     name, listed(restored.others)));
   return remarks;
 }
@@ -83,6 +83,7 @@ ReloadedPoint reloaded(const SavedFile& saved, std::shared_ptr<const System> sys
   // In another model the same values need not agree with the constraints, and forces are others.
   point.consistent = saved.consistent && whole && saved.fingerprint == fingerprint;
   point.restated = saved.restated;
+  point.restated.append(restored.begun);
   point.redundant_rows = saved.redundant_rows;
   if (saved.statics && point.consistent)
     point.statics = StaticSolution{saved.statics->iterations, saved.statics->imbalance,

@@ -33,17 +33,26 @@ class Restorer {
   template <class Saved, class Place>
   void restore(const std::vector<Saved>& saved, const std::vector<EntryKey>& here, const Place& place) {
     std::vector<EntryKey> keys;
-    for (const Saved& entry : saved) keys.push_back(entry.of);
+    std::set<Restated::Element> known;
+    for (const Saved& entry : saved) keys.push_back(entry.of), known.insert(element_of(entry.of));
     std::vector<bool> taken(saved.size()), found(here.size());
     for (const auto& [a, b] : matches(keys, here)) {
       taken[a] = found[b] = true;
-      if (!place(saved[a], b)) name(here[b], others_, restored_.others);
+      if (place(saved[a], b)) continue;
+      name(here[b], others_, restored_.others);
+      begin_shape(here[b]);
     }
     for (std::size_t k = 0; k < saved.size(); ++k) {
       if (!taken[k]) name(keys[k], not_here_, restored_.not_here);
     }
     for (std::size_t k = 0; k < here.size(); ++k) {
-      if (!found[k]) name(here[k], not_saved_, restored_.not_saved);
+      if (found[k]) continue;
+      name(here[k], not_saved_, restored_.not_saved);
+      if (known.contains(element_of(here[k]))) continue;
+      if constexpr (std::is_same_v<Saved, SavedPoint::Coordinates>)
+        begin_shape(here[k]);  // its place is that of the body
+      else
+        restored_.begun.begin(element_of(here[k]));
     }
   }
   void begin_anew(const std::vector<AngleName>& angles) {
@@ -66,6 +75,10 @@ class Restorer {
   RestoredPoint finish() && { return std::move(restored_); }
 
  private:
+  static Restated::Element element_of(const EntryKey& key) { return {key.statement, key.id}; }
+  void begin_shape(const EntryKey& key) {
+    for (const char* start : {"DMODE", "VMODE"}) restored_.begun.state(element_of(key), start);
+  }
   static void name(const EntryKey& key, std::set<std::string>& known, std::vector<std::string>& list) {
     const std::string text = EntryKey{key.statement, key.id, "", 0}.text();
     if (known.insert(text).second) list.push_back(text);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/delay_history.h"
+#include "model/restated.h"
 #include "system/carried_turns.h"
 #include "system/entry_keys.h"
 #include "system/system.h"
@@ -54,8 +55,9 @@ SavedPoint saved_point(const System&, const OperatingPoint&);
 struct RestoredPoint {
   OperatingPoint point;
   std::vector<std::string> not_here;   // elements that were saved and are not in this system
-  std::vector<std::string> not_saved;  // elements of this system that start as they are drawn
+  std::vector<std::string> not_saved;  // elements of this system that start as they are stated
   std::vector<std::string> others;     // so do these: they have other coordinates than what was saved
+  Restated begun;                      // what is stated of these holds at the next analysis
 };
 RestoredPoint restored_point(const SavedPoint&, const System&);
 

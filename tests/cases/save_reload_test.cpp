@@ -82,7 +82,7 @@ TEST_F(SaveReload, a_beam_of_other_nodes_starts_as_drawn) {
   ASSERT_EQ(run(five, "SIMULATE/STATICS\nSAVE/STATES, FILE=five.save\n").status, 0);
   const RunResult r = run(beam(three), "RELOAD/STATES, FILE=five.save\nSIMULATE/INITIAL_CONDITIONS\n");
   EXPECT_NEAR(reach(r, 1), 1, 1e-9);
-  EXPECT_THAT(r.err, HasSubstr("FE_PART/2, which start as they are drawn"));
+  EXPECT_THAT(r.err, HasSubstr("FE_PART/2, which start as the model states them"));
   const RunResult edited = run(five, "SIMULATE/STATICS\nFE_PART/2, " + three + "\nSIMULATE/INITIAL_CONDITIONS\n");
   EXPECT_NEAR(reach(edited, 2), 1, 1e-9);
 }
@@ -151,8 +151,28 @@ TEST_F(SaveReload, states_go_to_the_elements_that_are_there_and_the_others_are_n
   const RunResult r = commands("go.acf", "other\ngo\nRELOAD/STATES, FILE=s\nSIMULATE/INITIAL\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.err, HasSubstr("s has values of DIFF/1, which the model does not have"));
-  EXPECT_THAT(r.err, HasSubstr("s has no values of DIFF/7, which start as they are drawn"));
+  EXPECT_THAT(r.err, HasSubstr("s has no values of DIFF/7, which start as the model states them"));
   EXPECT_NEAR(point(r, 1)["bodies"][0]["position"][0].get<double>(), 0, 1e-12) << "hangs";
+}
+
+// A part and a hinge that the file does not know start with the velocities that the model states; the others go on.
+TEST_F(SaveReload, what_was_not_saved_starts_with_its_velocity) {
+  const RunResult first = run(pendulum, "SIMULATE/DYNAMICS, END=0.3\nSAVE/STATES, FILE=s\n");
+  ASSERT_EQ(first.status, 0) << first.err;
+  write("more.adm", head +
+                        "PART/3, MASS=2, CM=30, IP=1,1,1, QG=5,0,0, VX=0.5, WY=-4\nMARKER/30\n"
+                        "PART/4, MASS=2, CM=40, IP=1,1,1, QG=9,0,0\nMARKER/40\nMARKER/9, PART=1, QP=9,0,0\n"
+                        "JOINT/4, REVOLUTE, I=40, J=9, ICROT=0.2,7\nEND\n");
+  const RunResult r = commands("go.acf", "more\ngo\nRELOAD/STATES, FILE=s\nSIMULATE/INITIAL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("s has no values of PART/3, PART/4, JOINT/4, which start as the model states them"));
+  const auto bodies = point(r, 1).at("bodies");
+  EXPECT_NEAR(bodies[1].at("velocity")[0].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(bodies[1].at("angular_velocity")[1].get<double>(), -4, 1e-12);
+  EXPECT_NEAR(bodies[2].at("angular_velocity")[2].get<double>(), 7, 1e-12);
+  EXPECT_NEAR(bodies[2].at("axes")[0][0].get<double>(), std::cos(0.2), 1e-12);
+  const double moved = point(first, 0).at("bodies")[0].at("angular_velocity")[2];
+  EXPECT_NEAR(bodies[0].at("angular_velocity")[2].get<double>(), moved, 1e-9) << "not as it is stated";
 }
 
 TEST_F(SaveReload, further_output_files_begin_with_a_prefix_and_a_title) {
@@ -163,6 +183,21 @@ TEST_F(SaveReload, further_output_files_begin_with_a_prefix_and_a_title) {
   EXPECT_THAT(r.text("second.msg"), HasSubstr("another one"));
   EXPECT_THAT(r.text("second.msg"), HasSubstr("E I G E N V A L U E S"));
   EXPECT_THAT(r.message, Not(HasSubstr("E I G E N V A L U E S")));
+  ASSERT_EQ(r.json.at("results").size(), 4u) << "one of each command";
+  EXPECT_EQ(r.result(2).at("model"), "Pendulum");
+}
+
+// The result of RELOAD that begins further files says which model follows, and the time of the point.
+TEST_F(SaveReload, with_a_prefix_has_one_result) {
+  const RunResult r = run(pendulum,
+                          "SIMULATE/DYNAMICS, END=0.5\nSAVE/SYSTEM, FILE=s\nRELOAD/STATES, FILE=s, OUTPUT_PREFIX=p\n"
+                          "RELOAD/SYSTEM, FILE=s, OUTPUT_PREFIX=q\nRELOAD/STATES, FILE=s\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  ASSERT_EQ(r.json.at("results").size(), 5u);
+  for (const std::size_t k : {2u, 3u, 4u}) {
+    EXPECT_EQ(r.result(k).contains("model"), k < 4) << k;
+    EXPECT_EQ(r.result(k).at("time"), 0.5) << k;
+  }
 }
 
 TEST_F(SaveReload, files_that_save_did_not_write_so_are_refused_before_anything_runs) {
