@@ -460,6 +460,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "RESULTS/XRF, DECIMALPLACES=8\nRESULTS/DECIMALPLACES=9", {"duplicate-argument 11:9"}},
     {Place::added, "MARKER/9, PART=2, REULER=0,90D,0\nBUSHING/9, I=9, J=1, KT=1,1,1", {"skew-axes 11:1"}},
     {Place::added, "RESULTS/", {"passed-over 10:1"}},
+    {Place::added, "VARIABLE/9, FUNCTION=0\nVARIABLE/8, FUNCTION=0\nPINPUT/1, VARIABLES=9,8,9,9\nPOUTPUT/1, VARIABLES=8,8", {"variable-twice 12:25", "variable-twice 13:24"}},
     {Place::command, "LINEAR/EIGENSOL, KINETIC=1, NAMES", {"passed-over 3:29"}},
   };
   // clang-format on

@@ -20,7 +20,12 @@ struct VariableList {
 class VariableListSet final : public TypedSet<VariableList> {
  public:
   using TypedSet::TypedSet;
-  void read(std::size_t k, ElementReader& reader) override { read_arguments(elements[k], reader); }
+  void read(std::size_t k, ElementReader& reader) override {
+    if (read_arguments(elements[k], reader)) warn_of_repeated(elements[k], reader);
+  }
+
+ private:
+  static void warn_of_repeated(const VariableList&, ElementReader&);
 };
 
 constexpr Kind variable_list(std::string_view statement, std::string_view summary) {
