@@ -51,6 +51,11 @@ class Unbalanced {
   StaticEquations equations_;
 };
 
+// What turns are compared with: the slowest mode, or without modes what gravity makes of the size of the model.
+double slowest_motion(const System& system, const EigenSolution* modes) {
+  return modes ? slowest_mode(*modes) : std::sqrt(norm(system.model().gravity) / system.length());
+}
+
 struct Movement {
   double acceleration = 0, turning = 0, spin_up = 0, deformation = 0;
   double of_shape = 0;  // deformation as far as it moves anything [length/time²]
@@ -83,8 +88,7 @@ std::vector<Movement> movements(const System& system, const Motion& motion) {
 
 void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, Diagnostics& out) {
   const Layout& layout = system.layout();
-  const double L = system.length(),
-               slowest = modes ? slowest_mode(*modes) : std::sqrt(norm(system.model().gravity) / L);
+  const double L = system.length(), slowest = slowest_motion(system, modes);
   const Motion motion = system.motion(op);
   std::vector<Movement> movement = movements(system, motion);
   double least = std::numeric_limits<double>::infinity();
@@ -139,6 +143,21 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
                           is_node ? "one of its nodes" : "its mass centre",
                           modes ? "the eigenvalues hold for this instant, and mode shapes may be strange"
                                 : "the matrices hold for this instant"));
+}
+
+void reference_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, MarkerId reference,
+                       Diagnostics& out) {
+  const Marker& marker = system.model().marker(reference);
+  const Motion motion = system.motion(op);
+  const double speed = norm(rate(motion.frame(marker.place).origin)), turning = norm(motion.body(marker.place.body).w);
+  const double L = system.length(), least = unseen * slowest_motion(system, modes);
+  if (speed <= L * least && turning <= least) return;
+  const Units& units = system.model().units;
+  out.warning("moving-reference", marker.label->at,
+              fmt::format("RM=MARKER/{} moves at this point (velocity {:.5g} {}/{}, angular velocity {:.5g} rad/{}): "
+                          "eigenvalues, shapes and transfer functions are those seen from a moving frame",
+                          marker.label->id, speed, units.length.empty() ? "length" : lower_case(units.length),
+                          units.time_symbol(), turning, units.time_symbol()));
 }
 
 }  // namespace dynalin

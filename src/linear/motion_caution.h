@@ -11,4 +11,8 @@ namespace dynalin {
 // modes: a turn counts beside what gravity makes of the size of the model.
 void motion_caution(const System&, const OperatingPoint&, const EigenSolution*, Diagnostics&);
 
+// A warning where the marker that coordinates are relative to moves or turns, in the same sizes: what comes out is seen
+// from a moving frame.
+void reference_caution(const System&, const OperatingPoint&, const EigenSolution*, MarkerId reference, Diagnostics&);
+
 }  // namespace dynalin

@@ -7,6 +7,7 @@
 #include "analysis/initial.h"
 #include "linear/cautions.h"
 #include "linear/mode_shapes.h"
+#include "linear/motion_caution.h"
 #include "linear/second_order.h"
 #include "linear/selected_modes.h"
 #include "linear/still_modes.h"
@@ -105,6 +106,11 @@ void forget_bounds(EigenSolution& modes) {
   }
 }
 
+void add_reference_caution(const Linearization& of, const EigenSolution* modes, Diagnostics& remarks) {
+  const auto marker = of.request.rm ? of.system->model().find_marker(*of.request.rm) : std::nullopt;
+  if (marker) reference_caution(*of.system, of.point, modes, *marker, remarks);
+}
+
 // Named, labelled and commented, whichever way they were found.
 StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution> modes, Vectors wanted) {
   if (!modes) return tl::unexpected(StudyFailure(modes.error()));
@@ -115,6 +121,7 @@ StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution>
   }
   label(*modes, of.request);
   Diagnostics remarks = cautions(*of.system, of.point, of.linear, *modes);
+  add_reference_caution(of, &*modes, remarks);
   if (of.differenced) forget_bounds(*modes);
   return ModesFound{std::move(*modes), std::move(remarks)};
 }
@@ -167,7 +174,9 @@ StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const 
 }
 
 Diagnostics remarks_of_matrices(const Linearization& of) {
-  return cautions_of_matrices(*of.system, of.point, of.linear);
+  Diagnostics remarks = cautions_of_matrices(*of.system, of.point, of.linear);
+  add_reference_caution(of, nullptr, remarks);
+  return remarks;
 }
 
 StudyResult<Linearization> with_state_matrix(Linearization of) {

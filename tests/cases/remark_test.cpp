@@ -26,6 +26,11 @@ struct Remark {
 const std::vector<Remark>& table() {
   static const std::vector<Remark> rows = {
       {"accelerating-point", 5, SLIDER(BODY) "ACCGRAV/KGRAV=-10\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"moving-reference", 6,
+       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, WZ=3\nMARKER/20\n"
+       "JOINT/1, REVOLUTE, I=20, J=1\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=1,0,0, WZ=3, VY=3\nMARKER/30\n"
+       "MARKER/21, PART=2, QP=1,0,0\nBUSHING/1, I=30, J=21, K=9,9,9, KT=9,9,9\nEND\n",
+       "LINEAR/EIGENSOL, RM=20\n"},
       {"changed-velocity", 5, SLIDER("VX=1, " BODY) "END\n", "LINEAR/EIGENSOL\n"},
       {"changed-position", 5,
        SLIDER(BODY "EXACT=Z, ") "GCON/1, FUNCTION=DZ(20)-2\nMARKER/21, PART=2\nPART/3, MASS=1, CM=30, IP=1,1,1\n"
@@ -41,7 +46,8 @@ const std::vector<Remark>& table() {
        "LINEAR/EIGENSOL\n"},
       {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
        "LINEAR/EIGENSOL\n"},
-      {"kink", 8, SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-ABS(DZ(20)-1)\nEND\n", "LINEAR/EIGENSOL\n"},
+      {"kink", 8, SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-ABS(DZ(20)-1)\nEND\n",
+       "LINEAR/EIGENSOL\n"},
       {"implicit-diff", 8, SLIDER(BODY) "DIFF/1, IMPLICIT, FUNCTION=2*DIF(1)-DIF(2)\nDIFF/2, FUNCTION=-DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"dependent-coordinate", 0, SLIDER(BODY) "VARIABLE/1, FUNCTION=DX(20)\nPSTATE/1, VARIABLES=1\nEND\n",
