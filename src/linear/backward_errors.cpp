@@ -3,8 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "linear/arbitrary_vector.h"
 #include "linear/dense_products.h"
-#include "linear/shift_inverse.h"
 
 namespace dynalin {
 

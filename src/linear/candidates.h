@@ -2,7 +2,9 @@
 // those of the original implementation (original_states.h).
 #pragma once
 
-#include "linear/linear_system.h"
+#include "analysis/initial.h"
+#include "dynalin/results.h"
+#include "linear/linear_options.h"
 #include "mechanics/bound_expression.h"
 
 namespace dynalin {

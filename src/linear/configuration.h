@@ -13,10 +13,6 @@
 
 namespace dynalin {
 
-// The constraint rows and chosen coordinates, each row and each coordinate in its own unit, as a matrix: its least
-// singular value, and the rows and coordinates that all but depend on each other there.
-NearSingularity near_singularity(const System&, const ConstraintRows&, const StateChoice&);
-
 // The largest entry against that of the state matrix, lengths of the model, radians and the fastest rate of model and
 // motion taken as units.
 double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);

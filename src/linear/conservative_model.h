@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "linear/perturb.h"
 #include "linear/perturbed_point.h"
 #include "system/symmetric_factors.h"
 

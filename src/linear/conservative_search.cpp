@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/dense_solvers.h"
+#include "linear/arbitrary_vector.h"
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "linear/linear_system.h"
+#include "linear/perturb.h"
 #include "linear/state_choice.h"
 
 namespace dynalin {

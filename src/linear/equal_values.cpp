@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/dense_solvers.h"
-#include "linear/shift_inverse.h"
+#include "linear/arbitrary_vector.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {

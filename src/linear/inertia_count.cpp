@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "linear/arbitrary_vector.h"
 #include "linear/perturbation.h"
-#include "linear/shift_inverse.h"
 
 namespace dynalin {
 

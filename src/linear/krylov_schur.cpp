@@ -8,9 +8,9 @@
 #include <new>
 #include <numeric>
 
+#include "linear/arbitrary_vector.h"
 #include "linear/dense_products.h"
 #include "linear/rounding.h"
-#include "linear/shift_inverse.h"
 
 namespace dynalin {
 

@@ -9,7 +9,6 @@
 #include "base/blas_threads.h"
 #include "linear/balanced.h"
 #include "linear/configuration.h"
-#include "linear/dense_products.h"
 #include "linear/perturbation.h"
 #include "linear/perturbed_point.h"
 #include "linear/structural_zeros.h"
@@ -67,25 +66,7 @@ std::vector<StateReach> reach_of(const System& system, const Perturbation& p, co
   return reach;
 }
 
-// part(columns) of motions.
-template <class Part>
-Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::MatrixXcd& of_states, Part&& part) {
-  Eigen::MatrixXcd all(equations.coordinates(), of_states.cols());
-  for_few_columns(equations.unknowns(), of_states.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    const Eigen::MatrixXcd motions = equations.motions(of_states.middleCols(first, count));
-    all.middleCols(first, count) = part(motions);
-  });
-  return all;
-}
-
 }  // namespace
-
-Eigen::MatrixXcd Perturbation::displacements(const Eigen::MatrixXcd& of_states) const {
-  return of_motions(*equations, of_states, [&](const auto& m) { return m.topRows(equations->coordinates()); });
-}
-Eigen::MatrixXcd Perturbation::velocities(const Eigen::MatrixXcd& of_states) const {
-  return of_motions(*equations, of_states, [&](const auto& m) { return m.bottomRows(equations->coordinates()); });
-}
 
 Result<LinearSystem> reduce(const System& system, Perturbation perturbation) {
   const OneBlasThread alone;  // no digit depends on how many there are

@@ -6,11 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "linear/linear_options.h"
 #include "linear/massless_states.h"
 #include "linear/state_choice.h"
 #include "mechanics/element_trace.h"
 
 namespace dynalin {
+
+class PerturbationEquations;
 
 struct PerturbedPoint {
   PerturbedPoint(const System&, const OperatingPoint&, const LinearOptions&);

@@ -16,6 +16,7 @@
 #include "linear/region_search.h"
 #include "linear/selected_pairs.h"
 #include "linear/selection_doubts.h"
+#include "linear/selection_of_modes.h"
 #include "linear/zero_search.h"
 
 namespace dynalin {

@@ -1,10 +1,10 @@
-// Which of all modes a selection takes: the rules that any other way to them has to keep.
+#include "linear/selection_of_modes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/cycle.h"
-#include "linear/selected_modes.h"
 #include "linear/selection_doubts.h"
 
 namespace dynalin {

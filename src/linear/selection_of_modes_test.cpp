@@ -1,7 +1,7 @@
 // Which modes a selection takes out of all of them.
-#include <gtest/gtest.h>
+#include "linear/selection_of_modes.h"
 
-#include "linear/selected_modes.h"
+#include <gtest/gtest.h>
 
 namespace dynalin::selection_of_modes_test {
 namespace {

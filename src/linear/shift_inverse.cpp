@@ -1,8 +1,8 @@
 #include "linear/shift_inverse.h"
 
 #include <cmath>
-#include <random>
 
+#include "linear/arbitrary_vector.h"
 #include "linear/dense_products.h"
 
 namespace dynalin {
@@ -11,18 +11,6 @@ using Complex = std::complex<double>;
 using Matrix = Eigen::MatrixXd;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
-
-ComplexVector arbitrary_vector(Eigen::Index size, unsigned number) {
-  std::mt19937_64 generator(number);
-  // Of a distribution that is the same everywhere.
-  const auto next = [&] { return std::ldexp(static_cast<double>(generator() >> 11), -52) - 1; };
-  ComplexVector v(size);
-  for (Complex& e : v) {
-    const double re = next();
-    e = {re, next()};
-  }
-  return v;
-}
 
 ShiftInverse::ShiftInverse(const PerturbationEquations& equations, std::shared_ptr<const ConservativeModel> model)
     : equations_(equations), unknowns_(equations.unknowns()), unit_(Eigen::VectorXd::Ones(equations.states())) {

@@ -48,7 +48,4 @@ class ShiftInverse {
   Eigen::VectorXd unit_;
 };
 
-// Vectors without preferred direction, the same ones in every run.
-Eigen::VectorXcd arbitrary_vector(Eigen::Index size, unsigned number);
-
 }  // namespace dynalin

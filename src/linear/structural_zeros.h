@@ -18,7 +18,7 @@
 #include <memory>
 #include <vector>
 
-#include "linear/linear_system.h"
+#include "linear/perturb.h"
 #include "linear/state_choice.h"
 #include "mechanics/element_trace.h"
 

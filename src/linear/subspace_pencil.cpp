@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "linear/arbitrary_vector.h"
 #include "linear/dense_products.h"
 #include "linear/phased_subspace.h"
 #include "linear/rounding.h"

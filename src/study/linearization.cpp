@@ -10,6 +10,7 @@
 #include "linear/motion_caution.h"
 #include "linear/second_order.h"
 #include "linear/selected_modes.h"
+#include "linear/selection_of_modes.h"
 #include "linear/still_modes.h"
 #include "model/linear_remarks.h"
 #include "routine/routine_findings.h"

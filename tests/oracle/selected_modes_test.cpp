@@ -10,6 +10,7 @@
 
 #include "elements/catalogue.h"
 #include "linear/eigen.h"
+#include "linear/selection_of_modes.h"
 #include "oracle/oracle.h"
 
 namespace dynalin::oracle::selected_modes_test {
