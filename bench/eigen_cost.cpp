@@ -10,11 +10,11 @@
 #include <limits>
 #include <optional>
 
+#include "base/dense_products.h"
+#include "eigenvalues/eigen.h"
+#include "eigenvalues/eigen_refinement.h"
 #include "elements/catalogue.h"
 #include "hanging_chain.h"
-#include "linear/dense_products.h"
-#include "linear/eigen.h"
-#include "linear/eigen_refinement.h"
 
 namespace {
 

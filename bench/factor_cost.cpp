@@ -12,14 +12,14 @@
 #include <string>
 
 #include "distributed/team.h"
+#include "eigenvalues/arbitrary_vector.h"
 #include "elements/catalogue.h"
 #include "hanging_chain.h"
 #include "hinged_lattice.h"
-#include "linear/arbitrary_vector.h"
 #include "linear/linear_system.h"
-#include "linear/perturbation.h"
 #include "mass_lattice.h"
 #include "peak_memory.h"
+#include "perturbation/perturbation.h"
 #include "system/mumps_call.h"
 #include "system/shifted_lu.h"
 

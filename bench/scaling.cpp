@@ -14,8 +14,8 @@
 #include "analysis/initial.h"
 #include "elements/catalogue.h"
 #include "hinged_lattice.h"
-#include "linear/state_choice.h"
 #include "peak_memory.h"
+#include "states/state_choice.h"
 #include "system/system.h"
 
 namespace {

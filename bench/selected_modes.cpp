@@ -7,7 +7,7 @@
 //     selected_modes rotor 1000 10 200        a turning shaft of n BEAMs in damped bearings, the modes of 10 to 200 Hz
 //     selected_modes chain 2000 0             no modes: up to the perturbation equations
 //     selected_modes chain 2000 write         the dataset alone, for the program itself
-#include "linear/selected_modes.h"
+#include "selected_modes/selected_modes.h"
 
 #include <fmt/format.h>
 

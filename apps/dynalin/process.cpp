@@ -17,8 +17,8 @@
 #include <string_view>
 #include <thread>
 
+#include "base/dense_products.h"
 #include "dynalin/threads.h"
-#include "linear/dense_products.h"
 
 namespace {
 

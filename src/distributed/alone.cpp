@@ -2,7 +2,7 @@
 #include <mutex>
 
 #include "distributed/team.h"
-#include "linear/krylov_run.h"
+#include "selected_modes/krylov_run.h"
 #include "system/mumps_call.h"
 
 namespace dynalin {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "distributed/orders.h"
-#include "linear/krylov_run.h"
+#include "selected_modes/krylov_run.h"
 
 namespace dynalin {
 

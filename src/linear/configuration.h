@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linear/linear_system.h"
-#include "linear/state_choice.h"
+#include "states/state_choice.h"
 
 namespace dynalin {
 

@@ -1,7 +1,7 @@
 #include "linear/descriptor_form.h"
 
-#include "linear/perturbation.h"
-#include "linear/perturbed_point.h"
+#include "perturbation/perturbation.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin {
 

@@ -9,9 +9,9 @@
 #include "base/blas_threads.h"
 #include "linear/balanced.h"
 #include "linear/configuration.h"
-#include "linear/perturbation.h"
-#include "linear/perturbed_point.h"
-#include "linear/structural_zeros.h"
+#include "perturbation/perturbation.h"
+#include "perturbation/perturbed_point.h"
+#include "structural_zeros/structural_zeros.h"
 
 namespace dynalin {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/initial.h"
-#include "linear/perturb.h"
+#include "perturbation/perturb.h"
 
 namespace dynalin {
 

@@ -4,7 +4,7 @@
 #include <unordered_set>
 
 #include "analysis/augmented_system.h"
-#include "linear/perturbed_point.h"
+#include "perturbation/perturbed_point.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linear/perturbation.h"
+#include "perturbation/perturbation.h"
 
 namespace dynalin {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "linear/linear_system.h"
-#include "linear/perturbed_point.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "linear/perturbed_point.h"
 #include "linear/physical_matrices.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/export_point.h"
 #include "nastran/marker_grids.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

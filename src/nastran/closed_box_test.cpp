@@ -2,9 +2,9 @@
 // under a force is the response of the linear model.
 #include "nastran/closed_box.h"
 
-#include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/deck_roots_test_support.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran::closed_box_test {
 namespace {

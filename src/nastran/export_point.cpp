@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linear/perturbed_point.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

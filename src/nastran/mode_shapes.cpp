@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "linear/perturbed_point.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "linear/perturbed_point.h"
 #include "mechanics/pair_blocks.h"
 #include "nastran/export_point.h"
 #include "nastran/graphics.h"
@@ -16,6 +15,7 @@
 #include "nastran/names.h"
 #include "nastran/open_constraints.h"
 #include "nastran/open_forces.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

@@ -10,11 +10,11 @@
 #include <set>
 #include <vector>
 
-#include "linear/perturbed_point.h"
 #include "nastran/contributions.h"
 #include "nastran/marker_grids.h"
 #include "nastran/open_points.h"
 #include "nastran/wrenches.h"
+#include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "linear/dense_products.h"
+#include "base/dense_products.h"
 
 namespace dynalin::nastran_reader {
 

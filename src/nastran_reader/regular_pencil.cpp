@@ -8,7 +8,7 @@
 #include <limits>
 #include <new>
 
-#include "linear/dense_products.h"
+#include "base/dense_products.h"
 
 namespace dynalin::nastran_reader {
 

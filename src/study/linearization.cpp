@@ -5,15 +5,15 @@
 #include <algorithm>
 
 #include "analysis/initial.h"
-#include "linear/cautions.h"
-#include "linear/mode_shapes.h"
-#include "linear/motion_caution.h"
+#include "cautions/cautions.h"
+#include "cautions/motion_caution.h"
 #include "linear/second_order.h"
-#include "linear/selected_modes.h"
-#include "linear/selection_of_modes.h"
-#include "linear/still_modes.h"
+#include "modal/mode_shapes.h"
+#include "modal/still_modes.h"
 #include "model/linear_remarks.h"
 #include "routine/routine_findings.h"
+#include "selected_modes/selected_modes.h"
+#include "selected_modes/selection_of_modes.h"
 
 namespace dynalin {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "dynalin/linear_request.h"
-#include "linear/eigen.h"
+#include "eigenvalues/eigen.h"
 #include "study/study_point.h"
 
 namespace dynalin {

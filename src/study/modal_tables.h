@@ -4,7 +4,7 @@
 #include <span>
 
 #include "dynalin/modal_table.h"
-#include "linear/modal_distribution.h"
+#include "modal/modal_distribution.h"
 #include "study/linearization.h"
 #include "study/sums_over_modes.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "linear/stability.h"
+#include "cautions/stability.h"
 #include "study/model_source.h"
 #include "system/entry_keys.h"
 #include "system/operating_state.h"

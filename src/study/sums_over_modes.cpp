@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "linear/modal_sums.h"
+#include "modal/modal_sums.h"
 
 namespace dynalin {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/candidates.h"
-#include "linear/eigen.h"
 #include "linear/linear_system.h"
 #include "mechanics/kernel.h"
 #include "model/schema.h"
+#include "states/candidates.h"
 
 namespace dynalin::new_numbering_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "distributed/team.h"
-#include "linear/arbitrary_vector.h"
-#include "linear/krylov_run.h"
-#include "linear/krylov_schur.h"
+#include "eigenvalues/arbitrary_vector.h"
+#include "selected_modes/krylov_run.h"
+#include "selected_modes/krylov_schur.h"
 #include "system/mumps_call.h"
 #include "system/shifted_lu.h"
 #include "system/sparse_lu.h"

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <set>
 
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/eigen.h"
-#include "linear/modal_distribution.h"
+#include "modal/modal_distribution.h"
 #include "oracle/program_point.h"
 
 namespace dynalin::oracle::energy_rows_test {

@@ -10,8 +10,8 @@
 
 #include "analysis/displace.h"
 #include "linear/linear_system.h"
-#include "linear/perturbed_point.h"
 #include "oracle/models.h"
+#include "perturbation/perturbed_point.h"
 #include "study/simulation.h"
 
 namespace dynalin::oracle::matrix_exponential_test {

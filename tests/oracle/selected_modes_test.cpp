@@ -1,6 +1,6 @@
 // Selected modes of generated mechanisms against all modes of their state matrices, at regions drawn at random:
 // clusters, defective values and structural zeros included.
-#include "linear/selected_modes.h"
+#include "selected_modes/selected_modes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <random>
 
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/eigen.h"
-#include "linear/selection_of_modes.h"
 #include "oracle/oracle.h"
+#include "selected_modes/selection_of_modes.h"
 
 namespace dynalin::oracle::selected_modes_test {
 namespace {

@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "analysis/statics.h"
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/eigen.h"
-#include "linear/modal_distribution.h"
+#include "modal/modal_distribution.h"
 #include "oracle/mechanism.h"
 #include "oracle/program_point.h"
 

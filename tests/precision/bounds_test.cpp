@@ -9,8 +9,8 @@
 #include <random>
 #include <tuple>
 
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/eigen.h"
 #include "oracle/mechanism.h"
 #include "precision/precise.h"
 

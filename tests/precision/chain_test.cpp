@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "elements/catalogue.h"
-#include "linear/selected_modes.h"
 #include "precision/precise.h"
+#include "selected_modes/selected_modes.h"
 
 namespace dynalin::precision::chain_test {
 namespace {

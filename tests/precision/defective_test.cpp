@@ -10,8 +10,8 @@
 #include <optional>
 #include <random>
 
+#include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
-#include "linear/eigen.h"
 #include "precision/precise.h"
 
 namespace dynalin::precision::defective_test {

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "linear/perturbation.h"
+#include "perturbation/perturbation.h"
 
 namespace dynalin::precision {
 

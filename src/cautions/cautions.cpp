@@ -1,0 +1,100 @@
+#include "cautions/cautions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cautions/motion_caution.h"
+#include "cautions/stiction_caution.h"
+#include "linear/configuration.h"
+#include "linear/reach.h"
+
+namespace dynalin {
+
+namespace {
+
+void singular_configuration(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                            Diagnostics& out) {
+  const auto gained = freedoms_gained(system, op, linear);
+  if (!gained) return;
+  std::vector<std::string> rows;
+  for (const std::int32_t r : gained->rows) rows.push_back(system.row_text(r));
+  out.warning("singular-configuration", system.layout().rows[static_cast<std::size_t>(gained->rows.front())].owner->at,
+              fmt::format("the configuration is singular: {} {} redundant here and not right beside it; the model has "
+                          "{} more degree{} of "
+                          "freedom than nearby, and modes and frequencies change abruptly",
+                          fmt::join(rows, ", "), rows.size() == 1 ? "is" : "are", gained->count,
+                          gained->count == 1 ? "" : "s"));
+}
+
+void empty_rows(const System& system, const OperatingPoint& op, Diagnostics& out) {
+  for (const std::int32_t r : rows_that_hold_nothing(system, op)) {
+    out.warning("empty-constraint", system.layout().rows[static_cast<std::size_t>(r)].owner->at,
+                fmt::format("{} holds nothing here: no small motion changes it, and what it is to hold moves freely",
+                            system.row_text(r)));
+  }
+}
+
+void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {
+  constexpr double far = 1e5;
+  const auto found = largest_disproportion(system, linear, far);
+  if (!found) return;
+  const StateLabel& s = linear.model.states[found->state];
+  out.warning("near-singular", {},
+              fmt::format("near a singular configuration: {} moves {:.1e} times as far as the chosen {} of {}",
+                          system.layout().coordinate_text(found->coordinate), found->times, s.text, s.owner.text()));
+}
+
+// A difference in a slope that the linear model does not see, or a jump.
+void kinks(const System& system, const Motion& motion, Diagnostics& out) {
+  for (const Kink& k : system.kinks(motion)) out.warning("kink", k.of->at, k.text);
+}
+
+void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
+  if (modes.without_damping) return;
+  int falling = 0, others = 0;
+  const EigenMode* slowest = nullptr;
+  std::size_t number = 0;
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    const EigenMode& m = modes.modes[k];
+    if (!m.is_real || !system.model().find_body(m.mover.statement, m.mover.id)) continue;
+    const bool falls = m.eigenvalue_hz.real() < 0;
+    ++(falls ? falling : others);
+    if (falls && !slowest) slowest = &m, number = k + 1;
+  }
+  // Coordinates of first order bring one real mode each.
+  const int pairs = (falling - others - static_cast<int>(linear.first_order)) / 2;
+  if (pairs < 1 || !slowest) return;
+  out.warning("overdamped-modes", {},
+              fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "
+                          "them show",
+                          pairs, pairs == 1 ? " is" : "s are", number, slowest->moves_most));
+}
+
+Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                              const EigenSolution* modes) {
+  Diagnostics out;
+  singular_configuration(system, op, linear, out);
+  empty_rows(system, op, out);
+  disproportion(system, linear, out);
+  motion_caution(system, op, modes, out);
+  const Motion motion = system.motion(op);
+  kinks(system, motion, out);
+  for (const BodySource* body : system.bodies()) body->add_cautions(motion, out);
+  return out;
+}
+
+}  // namespace
+
+Diagnostics cautions_of_matrices(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  return cautions_of_point(system, op, linear, nullptr);
+}
+
+Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                     const EigenSolution& modes) {
+  Diagnostics out = cautions_of_point(system, op, linear, &modes);
+  overdamping(system, linear, modes, out);
+  stiction_cautions(system, op, linear, modes, out);
+  return out;
+}
+
+}  // namespace dynalin

@@ -1,0 +1,163 @@
+#include "cautions/motion_caution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/static_equations.h"
+#include "dataset/characters.h"
+#include "system/mass_centres.h"
+
+namespace dynalin {
+
+namespace {
+
+constexpr double balance = 1e-6;    // of the forces at play
+constexpr double unseen = 1e-9;     // turn beside the slowest mode, acceleration beside gravity and what that mode does
+constexpr double roundings = 100;   // that forces may be off: the estimate counts each number once
+constexpr double rounding = 1e-12;  // what solving may leave of one movement beside the others
+
+// Of the slowest mode that is not a structural zero [rad/time]; 0 if there is none.
+double slowest_mode(const EigenSolution& modes) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const EigenMode& m : modes.modes) {
+    const double hz = std::abs(m.eigenvalue_hz);
+    if (!m.structural_zero && hz > m.error_bound_hz) least = std::min(least, hz);
+  }
+  return std::isfinite(least) ? 2 * std::numbers::pi * least : 0.0;
+}
+
+// Which coordinates have forces that would set them in motion from rest.
+class Unbalanced {
+ public:
+  Unbalanced(const System& system, OperatingPoint op) : equations_(system) {
+    std::ranges::fill(op.velocity, 0.0);
+    std::ranges::fill(op.acceleration, 0.0);
+    std::ranges::fill(op.state_rate, 0.0);
+    equations_.evaluate(op, true);
+  }
+  bool any(std::int32_t first, std::int32_t count) const {
+    for (std::int32_t k = first; k < first + count; ++k) {
+      const double r = std::abs(equations_.residual()(k));
+      if (r > balance * equations_.magnitude()(k) && r > roundings * equations_.rounding()(k)) return true;
+    }
+    return false;
+  }
+
+ private:
+  StaticEquations equations_;
+};
+
+// What turns are compared with: the slowest mode, or without modes what gravity makes of the size of the model.
+double slowest_motion(const System& system, const EigenSolution* modes) {
+  return modes ? slowest_mode(*modes) : std::sqrt(norm(system.model().gravity) / system.length());
+}
+
+struct Movement {
+  double acceleration = 0, turning = 0, spin_up = 0, deformation = 0;
+  double of_shape = 0;  // deformation as far as it moves anything [length/time²]
+
+  double size(double length) const { return acceleration + length * (turning * turning + spin_up); }
+  // The same, and 0 for what is rounding.
+  Movement seen(double length) const {
+    const double least = rounding * std::max(size(length), of_shape);
+    Movement m = *this;
+    if (acceleration <= least) m.acceleration = 0;
+    if (length * turning * turning <= rounding * least) m.turning = 0;
+    if (length * spin_up <= least) m.spin_up = 0;
+    if (of_shape <= least) m.deformation = 0;
+    return m;
+  }
+};
+
+std::vector<Movement> movements(const System& system, const Motion& motion) {
+  std::vector<Movement> of(motion.bodies.size());
+  const std::vector<Vec3<Taylor>> centres = mass_centres(system, motion);
+  for (std::size_t b = 1; b < of.size(); ++b) {
+    const BodyMotion& m = motion.bodies[b];
+    // Of the mass centre: where the origin of a part lies is the choice of its author.
+    of[b] = {norm(acceleration(centres[b])), norm(m.w), norm(m.wdot)};
+  }
+  return of;
+}
+
+}  // namespace
+
+void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, Diagnostics& out) {
+  const Layout& layout = system.layout();
+  const double L = system.length(), slowest = slowest_motion(system, modes);
+  const Motion motion = system.motion(op);
+  std::vector<Movement> movement = movements(system, motion);
+  double least = std::numeric_limits<double>::infinity();
+  for (const double a : {norm(system.model().gravity), L * slowest * slowest})
+    if (a > 0) least = std::min(least, a);
+  if (!std::isfinite(least)) least = 0;
+  const auto turns = [&](const Movement& m) { return m.turning > unseen * slowest; };
+  const auto may_accelerate = [&](const Movement& m) { return m.acceleration + L * m.spin_up > unseen * least; };
+
+  std::vector<bool> counts(movement.size(), false);
+  const bool bends = std::ranges::any_of(layout.extras, &ExtraBlock::is_deformation);
+  if (bends || std::any_of(movement.begin() + 1, movement.end(), may_accelerate)) {
+    const Unbalanced unbalanced(system, op);
+    for (std::size_t b = 1; b < movement.size(); ++b) {
+      const BodyBlock& block = layout.bodies[b];
+      counts[b] = may_accelerate(movement[b]) && unbalanced.any(block.offset, block.count);
+    }
+    for (const ExtraBlock& e : layout.extras) {
+      if (!e.is_deformation() || !unbalanced.any(e.offset, e.count)) continue;
+      const auto owner = std::ranges::find_if(
+          layout.bodies, [&](const BodyBlock& b) { return b.label.element() == e.label.element(); });
+      if (owner == layout.bodies.end()) continue;
+      const auto b = static_cast<std::size_t>(owner - layout.bodies.begin());
+      const auto first = motion.extra_acceleration.begin() + static_cast<std::ptrdiff_t>(layout.extra_index(e.offset));
+      for (std::int32_t k = 0; k < e.count; ++k) {
+        const double q = std::abs(first[k]);
+        movement[b].deformation = std::max(movement[b].deformation, q);
+        movement[b].of_shape = std::max(movement[b].of_shape, q * L / system.coordinate_scale(e.offset + k));
+      }
+      counts[b] = counts[b] || movement[b].deformation > 0;
+    }
+  }
+
+  std::size_t most = 0;
+  for (std::size_t b = 1; b < movement.size(); ++b) {
+    if (!counts[b] && !turns(movement[b])) continue;
+    if (most == 0 || movement[b].size(L) > movement[most].size(L) * (1 + 1e-9)) most = b;
+  }
+  if (most == 0) return;
+  const Movement m = movement[most].seen(L);
+  const ElementLabel& part = layout.bodies[most].label;
+  const bool is_node =
+      std::ranges::count_if(layout.bodies, [&](const BodyBlock& b) { return b.label.element() == part.element(); }) > 1;
+  const Units& units = system.model().units;
+  const std::string time = units.time_symbol();
+  const std::string length = units.length.empty() ? "length" : lower_case(units.length);
+  out.warning("accelerating-point", part.at,
+              fmt::format("the operating point accelerates or turns, most of all {0} (acceleration of {7} {1:.5g} "
+                          "{4}/{5}², angular velocity {2:.5g} rad/{5}, angular acceleration {3:.5g} rad/{5}²{6}): {8}",
+                          part.full_text(), m.acceleration, m.turning, m.spin_up, length, time,
+                          m.deformation > 0 ? fmt::format(", of a coordinate of its shape {:.5g}", m.deformation) : "",
+                          is_node ? "one of its nodes" : "its mass centre",
+                          modes ? "the eigenvalues hold for this instant, and mode shapes may be strange"
+                                : "the matrices hold for this instant"));
+}
+
+void reference_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, MarkerId reference,
+                       Diagnostics& out) {
+  const Marker& marker = system.model().marker(reference);
+  const Motion motion = system.motion(op);
+  const double speed = norm(rate(motion.frame(marker.place).origin)), turning = norm(motion.body(marker.place.body).w);
+  const double L = system.length(), least = unseen * slowest_motion(system, modes);
+  if (speed <= L * least && turning <= least) return;
+  const Units& units = system.model().units;
+  out.warning("moving-reference", marker.label->at,
+              fmt::format("RM=MARKER/{} moves at this point (velocity {:.5g} {}/{}, angular velocity {:.5g} rad/{}): "
+                          "eigenvalues, shapes and transfer functions are those seen from a moving frame",
+                          marker.label->id, speed, units.length.empty() ? "length" : lower_case(units.length),
+                          units.time_symbol(), turning, units.time_symbol()));
+}
+
+}  // namespace dynalin
