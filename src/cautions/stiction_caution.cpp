@@ -52,7 +52,7 @@ void stiction_cautions(const System& system, const OperatingPoint& op, const Lin
     source.sticking(motion, sticking);
     for (const Stiction& s : sticking) {
       const ElementLabel& friction = elements.labels[s.element];
-      if (!energies) energies.emplace(system, op, linear, modes);
+      if (!energies) energies.emplace(system, linear, modes);
       const auto held = most_held(s, friction, linear, modes, *energies);
       std::string mode;
       if (held) {

@@ -7,6 +7,7 @@
 
 #include "mechanics/pair_blocks.h"
 #include "modal/wrench_work.h"
+#include "perturbation/perturbed_point.h"
 #include "states/original_states.h"
 
 namespace dynalin {
@@ -17,18 +18,8 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
-ModalDistribution::ModalDistribution(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                                     const EigenSolution& solution)
-    : system_(system), linear_(linear), solution_(solution), motion_(system.motion(op)) {
-  motion_.mode = AnalysisMode::linear;  // a DELAY follows what it delays, as in linearize()
-  ConstraintRows rows;
-  rows.resize(system.layout());
-  eq_.resize(system.layout());
-  eq_.keep_sizes();
-  system.constraints(motion_, rows);
-  system.equations(motion_, rows, eq_,
-                   {PartialBy::position, PartialBy::damping, PartialBy::velocity, PartialBy::algebraic});
-  eq_.clear_undefined();  // linearize() has refused those that count
+ModalDistribution::ModalDistribution(const System& system, const LinearSystem& linear, const EigenSolution& solution)
+    : system_(system), linear_(linear), solution_(solution), motion_(linear.at->motion), eq_(linear.at->equations) {
   if (linear.principal_states) {
     CandidateSet set;
     set.gradients.resize(system.layout(), static_cast<std::size_t>(system.layout().body_coordinate_count));

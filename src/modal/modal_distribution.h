@@ -33,7 +33,8 @@ struct ModalRow {
 
 class ModalDistribution {
  public:
-  ModalDistribution(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+  // At the point of the linear model, which must outlive this.
+  ModalDistribution(const System&, const LinearSystem&, const EigenSolution&);
 
   ModeHeader header(std::size_t mode) const;
   // X Y Z of the mass centre and RX RY RZ of each body, global axes; then one value for each differential state. The
@@ -74,8 +75,8 @@ class ModalDistribution {
   const System& system_;
   const LinearSystem& linear_;
   const EigenSolution& solution_;
-  Motion motion_;
-  Equations eq_;
+  const Motion& motion_;
+  const Equations& eq_;                     // of the linear model, without partials that do not exist
   std::optional<ConstraintRows> original_;  // gradients of the coordinates of the original implementation
   SparseLu algebraic_;
   bool algebraic_solved_ = true;

@@ -187,7 +187,7 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
   for (const auto& [name, range] : request.modes) {
     if (!find_modal_table(name)) return tl::unexpected(no_such("the modal table " + name));
   }
-  const ModalDistribution distribution(*of.system, of.point, of.linear, modes);
+  const ModalDistribution distribution(*of.system, of.linear, modes);
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     bool any = false;
     for (const ModalTableKind& kind : kinds) {

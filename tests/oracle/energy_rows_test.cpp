@@ -127,7 +127,7 @@ void compare(std::uint64_t seed, Seen& seen) {
   ASSERT_TRUE(modes) << modes.error().message;
   std::vector<ChosenState> states;
   for (const StateLabel& label : linear->model.states) states.push_back(chosen(label, mechanism));
-  const ModalDistribution energies(system, *op, *linear, *modes);
+  const ModalDistribution energies(system, *linear, *modes);
   const OraclePoint point = point_of(system, *op);
   const std::size_t count = modes->modes.size();
   for (const std::size_t mode : std::set<std::size_t>{0, count / 2, count - 1}) {

@@ -31,7 +31,7 @@ std::optional<Numbers> numbers_of(const System& system) {
   const auto modes = eigensolve(*linear);
   if (!modes) return std::nullopt;
   Numbers n{op->velocity, op->acceleration, op->lambda, linear->A, modes->vectors, {}};
-  const ModalDistribution energies(system, *op, *linear, *modes);
+  const ModalDistribution energies(system, *linear, *modes);
   for (const auto& row : energies.strain(0)) n.strain.push_back(row.values.front());
   // Statics may fail, alike for all.
   StaticsReport report;
