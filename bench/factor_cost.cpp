@@ -11,6 +11,7 @@
 #include <ctime>
 #include <string>
 
+#include "distributed/mumps_call.h"
 #include "distributed/team.h"
 #include "eigenvalues/arbitrary_vector.h"
 #include "elements/catalogue.h"
@@ -20,7 +21,6 @@
 #include "mass_lattice.h"
 #include "peak_memory.h"
 #include "perturbation/perturbation.h"
-#include "system/mumps_call.h"
 #include "system/shifted_lu.h"
 
 namespace {

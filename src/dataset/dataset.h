@@ -144,6 +144,12 @@ std::optional<std::vector<Span>> read_words(const WrittenArgument&, const Source
 // around it.
 std::optional<std::string> read_text(const WrittenArgument&, const SourceText&, Diagnostics&);
 
+// --- words of the language -------------------------------------------------------------------------
+// Readers look them up; which there are is for the catalogues to say, in folders above this one, and so the definitions
+// stand there: every statement in elements/statement_names.cpp, every command in command/command_catalogue.cpp.in.
+std::span<const std::string_view> statement_names();
+std::span<const std::string_view> command_names();
+
 // --- abbreviations ---------------------------------------------------------------------------------
 // The one keyword lookup, used for statements, arguments, option words and commands alike: an exact
 // match, else a unique prefix, else the candidate that the table of documented short forms prefers (M is
@@ -154,9 +160,6 @@ std::optional<std::size_t> find_keyword(std::string_view word, std::span<const s
 
 // Full name of a statement keyword by the priority table of the dataset language, "" if unknown.
 std::string_view statement_name(std::string_view word);
-std::span<const std::string_view> statement_names();
-// Every command of the language: which there are is the catalogue's to say (command/command_catalogue).
-std::span<const std::string_view> command_names();
 
 // The candidate nearest to a misspelt word, "" if none is near: for hints.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);

@@ -1,9 +1,9 @@
 // One process is all there is: MUMPS without MPI, Krylov iterations of our own.
 #include <mutex>
 
+#include "distributed/krylov_run.h"
+#include "distributed/mumps_call.h"
 #include "distributed/team.h"
-#include "selected_modes/krylov_run.h"
-#include "system/mumps_call.h"
 
 namespace dynalin {
 

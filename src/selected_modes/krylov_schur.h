@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include "selected_modes/krylov_run.h"
+#include "distributed/krylov_run.h"
 
 namespace dynalin {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "system/mumps_call.h"
+#include "distributed/mumps_call.h"
 
 namespace dynalin {
 

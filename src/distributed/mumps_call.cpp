@@ -1,5 +1,6 @@
-// Calls of MUMPS by all processes of a team: each has its part of the factors, the first also the matrix and the
-// right-hand sides.
+// By all processes of a team: each has its part of the factors, the first also the matrix and the right-hand sides.
+#include "distributed/mumps_call.h"
+
 #include <mpi.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <mutex>
 
 #include "distributed/orders.h"
-#include "system/mumps_call.h"
 
 namespace dynalin {
 

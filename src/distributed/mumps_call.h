@@ -1,6 +1,6 @@
 // Every call of MUMPS goes through here, one at a time: its Fortran core keeps state of its own, for all kinds of
-// numbers. Where the program runs as several processes (src/distributed) all of them take part in each call; the
-// matrix, right-hand sides and results stay with the first.
+// numbers. Where the program runs as several processes all of them take part in each call; the matrix, right-hand
+// sides and results stay with the first. Without DYNALIN_DISTRIBUTED: alone.cpp.
 #pragma once
 
 #include <dmumps_c.h>

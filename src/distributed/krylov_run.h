@@ -1,5 +1,5 @@
-// One run of a Krylov iteration by all processes of a team (src/distributed): what krylov_schur.h does alone, with the
-// vectors of the space spread over their memories.
+// One run of a Krylov iteration by all processes of a team: what selected_modes/krylov_schur.h does alone, with the
+// vectors of the space spread over their memories. Without DYNALIN_DISTRIBUTED there is none: alone.cpp.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,7 @@
 // A Krylov iteration by SLEPc: the vectors of its space lie spread over all processes. The operator is applied by the
 // first, with a whole vector; the others take part in what that needs of them, which is MUMPS.
+#include "distributed/krylov_run.h"
+
 #include <slepceps.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <optional>
 
 #include "distributed/orders.h"
-#include "selected_modes/krylov_run.h"
 
 namespace dynalin {
 
