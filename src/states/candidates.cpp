@@ -14,7 +14,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::array names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
+constexpr std::array coordinate_names = {"DX", "DY", "DZ", "AX", "AY", "AZ"};
 
 // Each coordinate of the layout as a state, those of rigid bodies and of the BCS of others as they are seen from marker
 // `rm` (0: global axes), which `owner` carries. `of` says which of the type codes they have.
@@ -29,7 +29,8 @@ std::vector<StateCoordinate> listed_coordinates(const System& system, std::int64
       StateCoordinate& state = list[static_cast<std::size_t>(block.offset + k)];
       state = global_coordinate(system, block, k);
       if (rm == 0 || block.is_node()) continue;
-      const std::string_view name = names[static_cast<std::size_t>(k)], seen = owns_marker ? "GROUND" : "BCS";
+      const std::string_view name = coordinate_names[static_cast<std::size_t>(k)],
+                             seen = owns_marker ? "GROUND" : "BCS";
       state.label.type = state.rate.type = block.listed.states.types.*of;
       state.label.text = state.rate.text = k < 3 ? fmt::format("Relative displacement {}({},{},{})", name, seen, rm, rm)
                                                  : fmt::format("Relative rotation {}({},{})", name, seen, rm);
@@ -120,10 +121,12 @@ StateCoordinate global_coordinate(const System& system, const BodyBlock& block, 
   const PoseStates& listed = block.listed.states;
   const auto at = static_cast<std::size_t>(k);
   const std::string of = block.is_node() ? fmt::format("node {}", block.listed.node) : std::string("BCS");
-  StateLabel label{
-      listed.types.global,   block.label.id,
-      listed.number[at],     fmt::format("Global {} {}({})", k < 3 ? "displacement" : "rotation", names[at], of),
-      block.label.element(), false};
+  StateLabel label{listed.types.global,
+                   block.label.id,
+                   listed.number[at],
+                   fmt::format("Global {} {}({})", k < 3 ? "displacement" : "rotation", coordinate_names[at], of),
+                   block.label.element(),
+                   false};
   return state_coordinate(std::move(label), listed.types.global, listed.number[at] + listed.rates_behind,
                           system.coordinate_scale(block.offset + k));
 }
