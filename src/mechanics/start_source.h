@@ -15,7 +15,7 @@ struct StartCondition {
   const ElementLabel* owner = nullptr;
   std::string_view name;
   std::optional<double> displacement, velocity;
-  StartArguments arguments{};  // that state them; none of a point of contact
+  StartArguments arguments{};  // that state them
 };
 
 class StartSource {

@@ -73,15 +73,16 @@ Swapped swapped_bristles(const System& from, const System& to) {
 }
 
 // What no element has remembered before begins at the point, and so does what bristles saw from the other end.
-void take_over_memory(const System& from, const OperatingPoint& op, const System& to, const Swapped& swapped,
-                      OperatingPoint& out) {
+void take_over_memory(const System& from, const OperatingPoint& op, const System& to, const Restated& restated,
+                      const Swapped& swapped, OperatingPoint& out) {
   OperatingPoint begun = out;
   begun.mode = AnalysisMode::initial_conditions;
   to.remember(begun);
   out.memory = std::move(begun.memory);
   for (const auto& [a, b] : matches(memory_keys(from.layout()), memory_keys(to.layout()))) {
     const ElementLabel* owner = to.layout().memory_owners[b].element;
-    if (!owner || !swapped.contains({owner->statement, owner->id})) out.memory[b] = op.memory[a];
+    const bool begins = owner && (restated.begins(*owner) || swapped.contains({owner->statement, owner->id}));
+    if (!begins) out.memory[b] = op.memory[a];
   }
 }
 
@@ -144,7 +145,7 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
     copy_block(op.state_rate, before, out.state_rate, after, 1);
   }
 
-  take_over_memory(from, op, to, swapped, out);
+  take_over_memory(from, op, to, restated, swapped, out);
   take_over_turns(known_turns(from, op), to, out);
   if (op.delays) {
     std::vector<KeptPast> kept;

@@ -1,6 +1,7 @@
 // What a command states about the start of one element, while the model moves, begins; all else goes on as it was.
 #include <gmock/gmock.h>
 
+#include "cases/curves.h"
 #include "cases/fe_parts.h"
 #include "cases/flexible.h"
 #include "cases/run.h"
@@ -303,6 +304,42 @@ TEST_F(RestatedStart, a_joint_begins_where_its_conditions_are_stated) {
   // It is over with the analysis that begins there.
   const auto later = after(dataset, "JOINT/1, IC=0.5,7\n" + fall + "PART/3, VX=2\n");
   expect_near(of(later, "PART/2", "position"), {0, 0, 7.5});
+}
+
+TEST_F(RestatedStart, states_of_control_elements_begin_where_their_arrays_say) {
+  const std::string filters =
+      "filters\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nTFSISO/1, X=1, U=2, Y=3, NUMERATOR=1, DENOMINATOR=1,1\n"
+      "ARRAY/1, X\nARRAY/2, U, VARIABLES=5\nARRAY/3, Y\nLSE/2, X=6, A=1\nARRAY/6, X\n"
+      "MATRIX/1, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=-1\nARRAY/9, IC, NUMBERS=0.7\nVARIABLE/5, FUNCTION=0\n"
+      "VARIABLE/1, FUNCTION=ARYVAL(1,1)\nVARIABLE/2, FUNCTION=ARYVAL(6,1)\nEND\n";
+  const auto values = [&](const std::string& commands) {
+    Numbers list;
+    for (const auto& v : after(filters, "SIMULATE/INITIAL_CONDITIONS\n" + commands).at("variables"))
+      if (v.at("element") != "VARIABLE/5") list.push_back(v.at("value"));
+    return list;
+  };
+  expect_near(values(""), {0, 0});
+  expect_near(values("TFSISO/1, IC=9\n"), {0.7, 0});
+  expect_near(values("LSE/2, IC=9\n"), {0, 0.7});
+}
+
+// A bead that has slid along its curve is put elsewhere on it, or given another speed, and nothing else.
+TEST_F(RestatedStart, a_point_of_contact_begins_where_and_as_fast_as_it_is_asked) {
+  const std::string bead =
+      "bead\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nMARKER/9, FLOATING\n" + parabola(1, 1.7) +
+      "POINT_MASS/2, MASS=3, CM=2\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1, DISP=0.5,0.425,0\n"
+      "PART/3, MASS=1, CM=30, IP=1,1,1, QG=9,0,0, VX=2\nMARKER/30\nINTEGRATOR/ERROR=1E-8\nEND\n";
+  const double x = 0.3, along = std::sqrt(1 + 4 * 1.7 * 1.7 * x * x);
+  const auto moved = after(bead, "SIMULATE/DYNAMICS, END=0.1\nPTCV/1, DISP=0.3,0.153,0\nPTCV/1, VEL=2\n");
+  expect_near(of(moved, "POINT_MASS/2", "position"), {x, 1.7 * x * x, 0});
+  expect_near(of(moved, "POINT_MASS/2", "velocity"), {2 / along, 2 * 3.4 * x / along, 0});
+  expect_near(of(moved, "PART/3", "position"), {9.2, -9.81 * 0.01 / 2, 0});
+  const auto before = after(bead, "SIMULATE/DYNAMICS, END=0.1\n"),
+             faster = after(bead, "SIMULATE/DYNAMICS, END=0.1\nPTCV/1, VEL=-3\n");
+  expect_near(of(faster, "POINT_MASS/2", "position"), of(before, "POINT_MASS/2", "position"));
+  const Numbers v = of(faster, "POINT_MASS/2", "velocity");
+  EXPECT_NEAR(std::hypot(v[0], v[1]), 3, 1e-6);
+  EXPECT_LT(v[0], 0);
 }
 
 TEST_F(RestatedStart, a_saved_point_knows_what_is_stated) {

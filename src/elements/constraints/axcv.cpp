@@ -18,6 +18,7 @@ struct AxisOnCurve {
   static constexpr StateType state_type{61};  // ours
   static constexpr bool turns = true;
   static constexpr std::array<std::string_view, 1> parameter_names = {"Curve parameter ALPHA"};
+  static constexpr std::array<StartArguments, 1> starts = {{{"DISP", "VEL"}}};
   static constexpr std::array<std::string_view, 5> row_names = {"DX", "DY", "DZ", "x tangent", "y tangent"};
   std::array<std::shared_ptr<const ParametricCurve>, 1> curves;
 

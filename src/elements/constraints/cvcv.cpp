@@ -20,6 +20,7 @@ struct CurveOnCurve {
   static constexpr StateType state_type = StateType::cvcv;
   static constexpr std::array<std::string_view, 2> parameter_names = {"Curve parameter ALPHA(I)",
                                                                       "Curve parameter ALPHA(J)"};
+  static constexpr std::array<StartArguments, 2> starts = {{{"IDISP", "IVEL"}, {"JDISP", "JVEL"}}};
   static constexpr std::array<std::string_view, 4> row_names = {"DX", "DY", "DZ", "tangent"};
   std::array<std::shared_ptr<const ParametricCurve>, 2> curves;
 
@@ -134,10 +135,26 @@ struct Cvcv {
       {.name = "JFLOAT", .slot = &Cvcv::jfloat, .required = true, .help = "floating marker on the body of JRM"},
       {.name = "JCURVE", .slot = &Cvcv::jcurve, .required = true, .help = "the second curve"},
       {.name = "JRM", .slot = &Cvcv::jrm, .required = true, .help = "marker in whose x-y plane JCURVE lies"},
-      {.name = "IDISP", .slot = &Cvcv::idisp, .unit = unit::length, .help = "contact on ICURVE at the start"},
-      {.name = "JDISP", .slot = &Cvcv::jdisp, .unit = unit::length, .help = "contact on JCURVE at the start"},
-      {.name = "IVEL", .slot = &Cvcv::ivel, .unit = unit::velocity, .help = "its speed along ICURVE at the start"},
-      {.name = "JVEL", .slot = &Cvcv::jvel, .unit = unit::velocity, .help = "its speed along JCURVE at the start"},
+      {.name = "IDISP",
+       .slot = &Cvcv::idisp,
+       .unit = unit::length,
+       .help = "contact on ICURVE at the start",
+       .start = StatedStart::alone},
+      {.name = "JDISP",
+       .slot = &Cvcv::jdisp,
+       .unit = unit::length,
+       .help = "contact on JCURVE at the start",
+       .start = StatedStart::alone},
+      {.name = "IVEL",
+       .slot = &Cvcv::ivel,
+       .unit = unit::velocity,
+       .help = "its speed along ICURVE at the start",
+       .start = StatedStart::alone},
+      {.name = "JVEL",
+       .slot = &Cvcv::jvel,
+       .unit = unit::velocity,
+       .help = "its speed along JCURVE at the start",
+       .start = StatedStart::alone},
       {.name = "IICM", .slot = &Cvcv::iicm, .help = "marker whose axes IDISP is stated in"},
       {.name = "JICM", .slot = &Cvcv::jicm, .help = "marker whose axes JDISP is stated in"},
   }};

@@ -19,6 +19,7 @@ namespace {
 struct PlaneOnCurve {
   static constexpr StateType state_type{60};  // ours
   static constexpr std::array<std::string_view, 1> parameter_names = {"Curve parameter ALPHA"};
+  static constexpr std::array<StartArguments, 1> starts = {{{"DISP", "VEL"}}};
   static constexpr std::array<std::string_view, 2> row_names = {"DZ", "tangent"};
   std::array<std::shared_ptr<const ParametricCurve>, 1> curves;
 
@@ -75,8 +76,16 @@ struct Plcv {
       {.name = "JFLOAT", .slot = &Plcv::jfloat, .required = true, .help = "floating marker on the body of RM"},
       {.name = "CURVE", .slot = &Plcv::curve, .required = true, .help = "the curve"},
       {.name = "RM", .slot = &Plcv::rm, .required = true, .help = "marker in whose axes the curve is stated"},
-      {.name = "DISP", .slot = &Plcv::disp, .unit = unit::length, .help = "where the contact starts, in RM or ICM"},
-      {.name = "VEL", .slot = &Plcv::vel, .unit = unit::velocity, .help = "its speed along the curve at the start"},
+      {.name = "DISP",
+       .slot = &Plcv::disp,
+       .unit = unit::length,
+       .help = "where the contact starts, in RM or ICM",
+       .start = StatedStart::alone},
+      {.name = "VEL",
+       .slot = &Plcv::vel,
+       .unit = unit::velocity,
+       .help = "its speed along the curve at the start",
+       .start = StatedStart::alone},
       {.name = "ICM", .slot = &Plcv::icm, .help = "marker whose axes DISP is stated in"},
   }};
 };

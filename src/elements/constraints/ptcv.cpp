@@ -16,6 +16,7 @@ struct PointOnCurve {
   static constexpr StateType state_type = StateType::ptcv;
   static constexpr bool turns = false;
   static constexpr std::array<std::string_view, 1> parameter_names = {"Curve parameter ALPHA"};
+  static constexpr std::array<StartArguments, 1> starts = {{{"DISP", "VEL"}}};
   static constexpr std::array<std::string_view, 3> row_names = {"DX", "DY", "DZ"};
   std::array<std::shared_ptr<const ParametricCurve>, 1> curves;
 

@@ -28,7 +28,7 @@ struct Lse {
       {.name = "Y", .slot = &Lse::y, .help = "ARRAY of type Y for the outputs"},
       {.name = "C", .slot = &Lse::C, .help = "MATRIX number of outputs × n"},
       {.name = "D", .slot = &Lse::D, .help = "MATRIX number of outputs × number of inputs"},
-      {.name = "IC", .slot = &Lse::initial, .help = "ARRAY with the initial states"},
+      {.name = "IC", .slot = &Lse::initial, .help = "ARRAY with the initial states", .start = StatedStart::value},
       {.name = "STATIC_HOLD", .slot = &Lse::static_hold, .help = "states keep their values in statics"},
   }};
 };

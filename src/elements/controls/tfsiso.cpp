@@ -36,7 +36,7 @@ struct Tfsiso {
       {.name = "Y", .slot = &Tfsiso::y, .required = true, .help = "ARRAY of type Y for the output"},
       {.name = "NUMERATOR", .slot = &Tfsiso::numerator, .required = true, .help = "b0, b1 … in ascending powers"},
       {.name = "DENOMINATOR", .slot = &Tfsiso::denominator, .required = true, .help = "a0, a1 … in ascending powers"},
-      {.name = "IC", .slot = &Tfsiso::initial, .help = "ARRAY with the initial states"},
+      {.name = "IC", .slot = &Tfsiso::initial, .help = "ARRAY with the initial states", .start = StatedStart::value},
       {.name = "STATIC_HOLD", .slot = &Tfsiso::static_hold, .help = "states keep their values in statics"},
   }};
 

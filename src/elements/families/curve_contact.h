@@ -5,6 +5,7 @@
 //
 //     static constexpr StateType state_type;                             // of the parameters
 //     static constexpr std::array<std::string_view, m> parameter_names;
+//     static constexpr std::array<StartArguments, m> starts;             // arguments that state where and how fast
 //     static constexpr std::array<std::string_view, n> row_names;
 //     std::array<std::shared_ptr<const ParametricCurve>, m> curves;      // which each parameter runs along
 //     template <class T> std::array<T, n> rows(const RelativeFrame<T>& I, const std::array<T, m>& u) const;
@@ -111,7 +112,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
         const ContactStart& s = c.start[a];
         if (!s.held && !s.velocity) continue;
         const auto place = s.held ? std::optional(s.parameter) : std::nullopt;
-        starts_.push_back({&labels[k], "contact point", place, s.velocity});
+        starts_.push_back({&labels[k], "contact point", place, s.velocity, E::starts[a]});
         start_places_.push_back({contacts_.size(), a});
       }
       contacts_.push_back(std::move(p));

@@ -23,8 +23,13 @@ struct CurveRider {
       {.name = "DISP",
        .slot = &CurveRider::disp,
        .unit = unit::length,
-       .help = "where the contact starts, in RM or ICM"},
-      {.name = "VEL", .slot = &CurveRider::vel, .unit = unit::velocity, .help = "speed along the curve at the start"},
+       .help = "where the contact starts, in RM or ICM",
+       .start = StatedStart::alone},
+      {.name = "VEL",
+       .slot = &CurveRider::vel,
+       .unit = unit::velocity,
+       .help = "speed along the curve at the start",
+       .start = StatedStart::alone},
       {.name = "ICM", .slot = &CurveRider::icm, .help = "marker whose axes DISP is stated in"},
   }};
 };
