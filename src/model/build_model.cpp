@@ -34,6 +34,7 @@ class Builder {
     model_->calls_routines = !routines_.functions.empty() || calls_curves;
     if (model_->dataset == options.read_once) read_once_ = options.read_once.get();
     model_->title = model_->dataset->title;
+    model_->edited = options.edited;
     model_->markers.emplace_back().label = &label_of_global_frame;
     Body ground;
     ground.kind = BodyKind::ground;

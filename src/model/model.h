@@ -114,6 +114,7 @@ struct Model {
   std::vector<SourceRef> further_sources;     // further texts that messages point into
   std::vector<std::string> input_files;       // that statements name and the model is made of
   bool calls_routines = false;                // compiled ones of the user: by one thread at a time
+  bool edited = false;                        // bodies may stand elsewhere than they are drawn when it counts
   std::shared_ptr<RoutineData> routine_data;  // what they read beside measures; null where there are none
 };
 
@@ -123,6 +124,7 @@ struct BuildOptions {
   std::optional<double> user_value{};  // what takes the place of compiled routines; nothing: they are errors
   // The dataset itself, if nobody needs the arguments of its statements but the model: they go as they are read.
   std::shared_ptr<Dataset> read_once{};
+  bool edited = false;  // by commands, perhaps in the middle of a run
 };
 Parsed<std::unique_ptr<Model>> build_model(std::shared_ptr<const Dataset>, Catalogue, const BuildOptions& = {});
 

@@ -53,6 +53,24 @@ TEST_F(DrawnAxes, of_crosses_must_be_perpendicular) {
   EXPECT_EQ(checked("JOINT/3, CONVEL", "0,0,0"), "");
 }
 
+// Axes that are drawn parallel, and were turned until they are not when a command asks for it.
+TEST_F(DrawnAxes, of_a_joint_that_a_command_defines_may_have_been_turned_before) {
+  const std::string door =
+      "Door\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, PART=1, REULER=90D,90D,0\n"
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20, PART=2, REULER=90D,90D,0\nMARKER/21, PART=2\n"
+      "JOINT/1, REVOLUTE, I=20, J=2\nMOTION/1, JOINT=1, FUNCTION=TIME\nJPRIM/1, PARALLEL_AXES, I=20, J=2\nEND\n";
+  const std::string defined = "DEACTIVATE/MOTION, ID=1\nJPRIM/1, PERPENDICULAR, I=21, J=1\n";
+  const RunResult turned =
+      run(door, "SIMULATE/KINEMATICS, END=1.5707963267948966\n" + defined + "SIMULATE/INITIAL_CONDITIONS\n");
+  EXPECT_EQ(turned.status, 0) << turned.err;
+  EXPECT_THAT(turned.err, HasSubstr("warning: JPRIM/1: the z axes of MARKER/21 and MARKER/1 must be perpendicular, and "
+                                    "are drawn parallel"));
+  // As it is drawn nothing can be assembled, and the reason stands above.
+  const RunResult drawn = run(door, defined + "SIMULATE/INITIAL_CONDITIONS\n");
+  EXPECT_NE(drawn.status, 0);
+  EXPECT_THAT(drawn.err, HasSubstr("are drawn parallel"));
+}
+
 TEST_F(DrawnAxes, of_pinion_and_rack_must_not_be_parallel) {
   for (const char* parallel : {"0,0,0", "30D,0,0", "0,180D,0"}) {
     EXPECT_THAT(checked("JOINT/3, RACKPIN, PD=0.2", parallel),

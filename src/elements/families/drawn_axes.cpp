@@ -49,7 +49,12 @@ void check_drawn_axes(const Model& model, const ElementLabel& label, MarkerId i,
           name_I, name_J);
     }
     if (text.empty()) continue;
-    diagnostics.error("parallel-axes", label.at, fmt::format("{}: {}", label.full_text(), text), std::string(hint));
+    text = fmt::format("{}: {}", label.full_text(), text);
+    if (model.edited) {
+      diagnostics.warning("parallel-axes", label.at, std::move(text), "as the model stands now they may be so no more");
+    } else {
+      diagnostics.error("parallel-axes", label.at, std::move(text), std::string(hint));
+    }
     return;
   }
 }
