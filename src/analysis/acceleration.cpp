@@ -10,6 +10,7 @@
 #include "analysis/acceleration_equations.h"
 #include "analysis/acceleration_rounding.h"
 #include "analysis/augmented_system.h"
+#include "analysis/contradiction.h"
 #include "analysis/initial.h"
 #include "analysis/undetermined_reactions.h"
 #include "mechanics/vanishing_source.h"

@@ -154,7 +154,7 @@ EquilibriumSearch::EquilibriumSearch(const System& system, OperatingPoint drawn,
       history_(options.progress),
       descent_(equations_, options, history_),
       op_(std::move(drawn)) {
-  equations_.settle(op_);
+  equations_.settle_after_motion(op_);
   drawn_ = op_;
 }
 

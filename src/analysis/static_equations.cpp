@@ -16,18 +16,10 @@ bool finite(const std::vector<double>& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 
-// Of a step, what solving for it in matrices as they are may be off.
-constexpr double rest_of_step = 1e-11;
-
-// What a step leaves of a reaction or a value that it takes away is rounding, and none of it is kept: the next step
-// would find it again, and where nothing acts each one would leave a smaller rest, of which the search took the size
-// for that of what is at play.
-void add_step(const Eigen::Ref<const Eigen::VectorXd>& step, const Eigen::VectorXd& size, std::vector<double>& values) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    const double now = values[k] + step(i);
-    values[k] = std::abs(now) <= rest_of_step * size(i) ? 0.0 : now;
-  }
+double largest(const std::vector<double>& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::abs(x));
+  return most;
 }
 
 }  // namespace
@@ -306,21 +298,30 @@ void StaticEquations::settle(OperatingPoint& op) {
     before = level;
     const AugmentedColumns columns{PartialBy::position, PartialBy::state, false};
     if (!factor(lu, augmented_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
-    const double unbalanced = coordinates_ > 0 ? step.topRows(coordinates_).cwiseAbs().maxCoeff() : 0.0;
     lu.solve(step);
     a += step.col(0).head(a.size());
-    for (std::int32_t k = 0; k < coordinates_; ++k) {
-      if (std::abs(D[static_cast<std::size_t>(k)] * a(k)) <= rest_of_step * unbalanced) a(k) = 0;
-    }
-    const Eigen::VectorXd of_reactions =
-        step.col(0).segment(augmented_.lambda(0), static_cast<Eigen::Index>(next.lambda.size()));
-    const Eigen::VectorXd of_values =
-        step.col(0).segment(augmented_.algebraic(0), static_cast<Eigen::Index>(next.algebraic.size()));
-    const double most = of_reactions.size() == 0 ? 0.0 : of_reactions.cwiseAbs().maxCoeff();
-    add_step(of_reactions, Eigen::VectorXd::Constant(of_reactions.size(), most), next.lambda);
-    add_step(of_values, of_values.cwiseAbs(), next.algebraic);
+    for (std::size_t k = 0; k < next.lambda.size(); ++k)
+      next.lambda[k] += step(augmented_.lambda(static_cast<std::int32_t>(k)), 0);
+    for (std::size_t k = 0; k < next.algebraic.size(); ++k)
+      next.algebraic[k] += step(augmented_.algebraic(static_cast<std::int32_t>(k)), 0);
   }
   if (finite(next.lambda) && finite(next.algebraic)) op = std::move(next);
+}
+
+void StaticEquations::settle_after_motion(OperatingPoint& op) {
+  constexpr double rest = 1e-12;  // rounding of solutions in matrices as they are
+  const std::vector<double> reactions = op.lambda, values = op.algebraic;
+  settle(op);
+  bool vanished = false;
+  const auto vanish = [&](double& now) {
+    vanished = vanished || now != 0;
+    now = 0;
+  };
+  if (largest(op.lambda) <= rest * largest(reactions)) std::ranges::for_each(op.lambda, vanish);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::abs(op.algebraic[k]) <= rest * std::abs(values[k])) vanish(op.algebraic[k]);
+  }
+  if (vanished) settle(op);
 }
 
 Eigen::VectorXd StaticEquations::row_units(double force) const {

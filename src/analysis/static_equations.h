@@ -70,6 +70,10 @@ class StaticEquations {
   // D that `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as
   // it is if that fails.
   void settle(OperatingPoint&);
+  // The same of a point that a motion has led to. What it leaves of reactions and values that nothing keeps up at rest
+  // is rounding, and none is kept: each step would leave a smaller rest, of which a search took the size for that of
+  // what is at play, down to 1e-272.
+  void settle_after_motion(OperatingPoint&);
 
   // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.
   double slope(const Eigen::VectorXd& step) const;

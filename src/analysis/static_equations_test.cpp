@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/static_step.h"
 #include "analysis/statics_test_support.h"
 
 namespace dynalin::analysis_test::static_equations_test {

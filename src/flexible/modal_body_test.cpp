@@ -38,9 +38,10 @@ std::string record(int number, const std::vector<double>& numbers) {
   return fmt::format("**\n** RECORD GROUP {}\n", number) + row(numbers);
 }
 
-// Records 1 to 10.
-std::string shapes_of(const std::vector<MassPoint>& points) {
-  std::string text = fmt::format("** RECORD GROUP 1\n**\n REV0 {} {} 0 0 0\n**\n** RECORD GROUP 2\n", nodes, modes);
+// Records 1 to 10; of rejected modes the file has shapes and nothing else.
+std::string shapes_of(const std::vector<MassPoint>& points, std::size_t rejected = 0) {
+  std::string text = fmt::format("** RECORD GROUP 1\n**\n REV0 {} {} 1 0 {}\n**\n** RECORD GROUP 2\n", nodes,
+                                 modes + rejected - 1, rejected);
   for (std::size_t p = 1; p <= nodes; ++p) text += fmt::format(" {}\n", p);
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<double> places;
@@ -48,6 +49,10 @@ std::string shapes_of(const std::vector<MassPoint>& points) {
     text += record(static_cast<int>(5 + c), places);
   }
   text += "**\n** RECORD GROUP 8\n";
+  for (std::size_t k = 0; k < rejected; ++k) {
+    text += "** REJECTED\n";
+    for (std::size_t p = 0; p < nodes; ++p) text += row({9, 8, 7, 6, 5, 4});
+  }
   std::vector<double> mass;
   for (std::size_t k = 0; k < modes; ++k) {
     text += "** MODE\n";
@@ -125,6 +130,17 @@ TEST(ModalBody, of_stated_sums_is_that_of_the_mass_points) {
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(stated.tensor_at(q)(r, c), moved(r, c), 1e-13 * mass);
   }
+}
+
+TEST(ModalBody, passes_over_rejected_modes) {
+  const std::vector<MassPoint> points = mass_points();
+  std::vector<double> lumped;
+  for (const MassPoint& p : points) lumped.insert(lumped.end(), {p.mass, p.mass, p.mass, 0, 0, 0});
+  const ModalBody whole = body_of(shapes_of(points) + record(11, lumped)),
+                  without = body_of(shapes_of(points, 2) + record(11, lumped));
+  EXPECT_EQ(without.modes(), static_cast<Eigen::Index>(modes));
+  EXPECT_EQ(without.translation, whole.translation);
+  EXPECT_EQ(without.rotation, whole.rotation);
 }
 
 }  // namespace dynalin::modal_body_test

@@ -309,6 +309,20 @@ TEST(OpenBoxCards, unused_items_can_be_left_out_of_frequency_response) {
   EXPECT_GT(all.first, used.first);
 }
 
+// Points that only draw count as well.
+TEST(OpenBoxCards, unused_points_are_counted) {
+  Deck deck;
+  deck.grids.resize(2), deck.shape_grids.resize(3);
+  for (std::size_t k = 0; k < 2; ++k) deck.grids[k].id = static_cast<std::int64_t>(k + 1);
+  for (std::size_t k = 0; k < 3; ++k) deck.shape_grids[k].id = static_cast<std::int64_t>(k + 11);
+  ExportOptions options;
+  options.remove_unused_items = {"grid"};
+  std::vector<std::string> details;
+  remove_unused(deck, options, details);
+  EXPECT_TRUE(deck.grids.empty() && deck.shape_grids.empty());
+  EXPECT_THAT(details, ElementsAre("GRID cards taken out: 5"));
+}
+
 TEST(OpenBoxCards, response_at_channels_is_that_of_the_closed_box) {
   const Linearization of = linearization_of(
       "ACCGRAV/JGRAV=-9.81\nPART/2, MASS=2, CM=20, IP=0.1,0.2,0.3, QG=0.1,0.2,0\nMARKER/20, PART=2, QP=0.4,-0.3,0.1\n"

@@ -8,8 +8,8 @@
 
 namespace dynalin {
 
-// Looks at two instants inside each step, where the cubic through the four values has an extremum beyond zero or next to
-// it, and where a function may reach zero that changes no faster than it does between the instants looked at: a gap
+// Looks at two instants inside each step, where the cubic through the four values has an extremum beyond zero or next
+// to it, and where a function may reach zero that changes no faster than it does between the instants looked at: a gap
 // that is passed at a steady speed falls and rises again like a V, however narrow its dip. What comes and goes faster
 // than anything that was seen of it may still be missed.
 class HiddenCrossings {
@@ -20,7 +20,9 @@ class HiddenCrossings {
   void begin(std::span<const double> values) { before_.assign(values.begin(), values.end()); }
   // The instant just behind the first change of a sign before the second instant, whose values are `at_end`: who calls
   // knows what changes there. Without one the next stretch begins at the second instant, else at what was found.
-  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&);
+  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values& values) {
+    return first(from, to, at_end, values, false);
+  }
   // An instant within the step at which a sign is another one than at its beginning, the first that is looked at, and
   // not closed in on. The values of the beginning stay those of the step.
   std::optional<double> seen(double from, double to, std::span<const double> at_end, const Values&);
@@ -34,6 +36,7 @@ class HiddenCrossings {
     std::vector<double> values;
   };
 
+  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&, bool begins_anew);
   bool has_crossed(std::span<const double> values) const;
   std::vector<double> suspects(std::span<const double> at_end) const;
   const Look& look(double part, double from, double length, const Values&);
@@ -41,7 +44,8 @@ class HiddenCrossings {
   double closed_in(double from, double beyond, double tolerance, const Values&);
 
   std::vector<double> before_, now_;
-  std::vector<Look> looks_;  // the first `looked_` in the order of their parts; what is behind is kept for the next step
+  std::vector<Look>
+      looks_;  // the first `looked_` in the order of their parts; what is behind is kept for the next step
   std::size_t looked_ = 0;
   std::vector<int> crossed_;
 };

@@ -77,6 +77,13 @@ TEST(HiddenCrossings, looks_no_closer_at_what_is_out_of_reach) {
   EXPECT_LT(passes.looks, 26);
 }
 
+// What has begun beside zero by a rounding and ends on that side was on the other one in between.
+TEST(HiddenCrossings, finds_the_end_of_what_began_with_a_sign_of_rounding) {
+  const Found f = search([](double t) { return t == 0 ? -1e-18 : t * (0.9 - t); }, 0, 1);
+  ASSERT_EQ(f.times.size(), 1u);
+  EXPECT_NEAR(f.times[0], 0.9, 1e-12);
+}
+
 TEST(HiddenCrossings, takes_a_sign_of_rounding_where_it_begins_for_what_follows) {
   const auto f = [](double t) { return t == 0 ? -1e-18 : t * (2 - t); };
   EXPECT_TRUE(search(f, 0, 1).times.empty());

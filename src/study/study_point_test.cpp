@@ -65,7 +65,7 @@ TEST(StudyPoint, static_results_know_whether_the_solution_is_stable) {
 TEST(StudyPoint, names_rows_that_depend_on_others) {
   const auto found = initial_conditions(as_drawn(system_of(pendulum + "JPRIM/7, INPLANE, I=21, J=1\n")));
   ASSERT_TRUE(found);
-  EXPECT_THAT(found->point.redundant_rows, ElementsAre("DZ of JPRIM/7"));
+  EXPECT_THAT(found->point.redundant_rows, ElementsAre("DZ in JPRIM/7"));
   EXPECT_TRUE(found->point.consistent);
 }
 

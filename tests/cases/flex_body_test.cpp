@@ -431,7 +431,7 @@ TEST_F(FlexBody, is_bent_far_from_a_tenth_of_its_length_on) {
     for (FlexibleNode& n : nodes) n.at.y += beside;
     write("beam.fem", modal_text(nodes, body.stiffness));
     for (const double bent : {0.09, 0.11}) {
-      const RunResult r = run(fmt::format("Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=0,{}\nFLEX_BODY/2, "
+      const RunResult r = run(fmt::format("Beam\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=0,{},0\nFLEX_BODY/2, "
                                           "MNF_FILE=beam.fem, CRATIO=0, DMODE={:.17g},0\nMARKER/21, NODE_ID=1\n"
                                           "JOINT/1, FIXED, I=21, J=1\nEND\n",
                                           beside, bent * length / farthest),

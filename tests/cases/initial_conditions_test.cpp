@@ -66,7 +66,7 @@ TEST_F(InitialConditions, are_made_up_to_the_level_that_is_named) {
     const auto first = body(r, 0);
     EXPECT_EQ(first.at("position"), end.at("position"));
     EXPECT_EQ(first.at("angular_velocity") == end.at("angular_velocity"), velocity);
-    EXPECT_NE(first.at("acceleration"), end.at("acceleration"));
+    EXPECT_NE(first.at("angular_acceleration"), end.at("angular_acceleration"));
     EXPECT_EQ(r.result(0).at("operating_point").at("constraints")[0].at("multiplier"), 0);
     EXPECT_EQ(body(r, 1), end) << "made by the next analysis";
     EXPECT_EQ(body(r, 2), end) << "done already";

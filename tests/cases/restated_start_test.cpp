@@ -314,7 +314,8 @@ TEST_F(RestatedStart, states_of_control_elements_begin_where_their_arrays_say) {
       "VARIABLE/1, FUNCTION=ARYVAL(1,1)\nVARIABLE/2, FUNCTION=ARYVAL(6,1)\nEND\n";
   const auto values = [&](const std::string& commands) {
     Numbers list;
-    for (const auto& v : after(filters, "SIMULATE/INITIAL_CONDITIONS\n" + commands).at("variables"))
+    const auto point = after(filters, "SIMULATE/INITIAL_CONDITIONS\n" + commands);
+    for (const auto& v : point.at("variables"))
       if (v.at("element") != "VARIABLE/5") list.push_back(v.at("value"));
     return list;
   };

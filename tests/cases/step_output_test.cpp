@@ -215,8 +215,9 @@ TEST_F(StepOutputs, name_components_of_requests_by_lists_with_colons) {
       "REQUEST/2, F2=1\\F3=2\\CNAMES=:x:y\nREQUEST/3, F2=1\\CNAMES=\"\",\"a:b\"\n");
   simulate(StepKind::kinematics, 0, 1, 1);
   finish();
+  const json a = parsed(folder_ / "model.res")[0];
   std::vector<json> requests;
-  for (const auto& entry : parsed(folder_ / "model.res")[0].at("map")) {
+  for (const auto& entry : a.at("map")) {
     if (entry[3] == "Request") requests.push_back(entry);
   }
   ASSERT_EQ(requests.size(), 10u);

@@ -90,7 +90,8 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   if (!sound) return nullptr;
   auto action = std::make_shared<Simulate>();
   action->initial_conditions = w.initial;
-  if ((w.displacement || w.velocity) && !w.acceleration) action->last = w.velocity ? Level::velocity : Level::position;
+  if ((w.displacement || w.velocity) && !w.acceleration)
+    action->last_level = w.velocity ? Level::velocity : Level::position;
   if (w.kinematics) action->kind = SimulationKind::kinematics;
   if (w.dynamics) action->kind = SimulationKind::dynamics;
   if (w.transient) action->kind = SimulationKind::transient;
@@ -200,7 +201,7 @@ constexpr CommandKind kind = {.name = "SIMULATE",
 
 StudyResult<void> Simulate::run(RunState& run) const {
   if (kind) return run_over_time(run);
-  return initial_conditions ? find_start(run, last) : find_rest(run);
+  return initial_conditions ? find_start(run, last_level) : find_rest(run);
 }
 
 StudyResult<void> Simulate::run_over_time(RunState& run) const {

@@ -344,7 +344,7 @@ void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
 
     const Balance<double> of_body = balance(I.mass, path, c.shape, gravity_);
     // The derivatives of axes are of the size of ω² and α in all directions, also where they turn nothing.
-    const double turning = norm(b.wdot) + dot(b.w, b.w);
+    const double turning = 0.25 * (norm(b.wdot) + dot(b.w, b.w));
     eq.apply_inertia(item.body, of_body.force, of_body.moment,
                      {.force = turning * norm(c.shape.arm()), .moment = turning * c.shape.polar()});
     const Felt<double> felt(path, gravity_);

@@ -39,8 +39,8 @@ void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
     const Vector moment = Vector{G2(2, 1) - G2(1, 2), G2(0, 2) - G2(2, 0), G2(1, 0) - G2(0, 1)};
     const Vector force = m.mass * (b.rddot - gravity_) + cddot;
     // R″ is of the size of ω² and α in all axes, also where it turns nothing: ω × J ω of a ball is nothing but
-    // rounding.
-    const double turning = norm(b.wdot) + dot(b.w, b.w);
+    // rounding, and that of a part of this size.
+    const double turning = 0.25 * (norm(b.wdot) + dot(b.w, b.w));
     eq.apply_inertia(m.body, force, moment + cross(c, b.rddot - gravity_),
                      {.force = turning * norm(c), .moment = turning * trace(m.S)});
     if (!eq.wants_partials()) continue;
