@@ -223,7 +223,10 @@ struct DaeIntegrator::Memory {
     };
     if (t != to.end) place_at(to.end);
     std::optional<double> first;
-    if (problem.switch_count() > 0) first = hidden.first(from, to.end, switches_at(t, y, yp), inside);
+    // IDA compares the ends of its own step: what changes twice in it is not known to it at the end of a part.
+    std::span<const int> reported;
+    if (to.outcome == Outcome::event) reported = to.crossed;
+    if (problem.switch_count() > 0) first = hidden.first(from, to.end, switches_at(t, y, yp), inside, reported);
     if (!first) {
       if (to.outcome == Outcome::event) crossed = std::move(to.crossed);
       return to.outcome;

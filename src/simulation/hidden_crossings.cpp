@@ -144,12 +144,14 @@ std::optional<double> HiddenCrossings::seen(double from, double to, std::span<co
 }
 
 std::optional<double> HiddenCrossings::first(double from, double to, std::span<const double> at_end,
-                                             const Values& values, bool begins_anew) {
+                                             const Values& values, const Reported& reported) {
   now_.resize(at_end.size());
   const double tolerance = tolerance_of(from, to);
   std::optional<double> beyond = seen(from, to, at_end, values);
-  // Who compares the ends took a rounding for the sign at the beginning.
-  if (!beyond && begins_anew && has_crossed(at_end)) beyond = to;
+  for (std::size_t k = 0; reported && !beyond && k < at_end.size(); ++k) {
+    const bool told = k < reported->size() && (*reported)[k] != 0;
+    if (!told && sign(at_end[k]) * sign(before_[k]) < 0) beyond = to;
+  }
   if (!beyond) {
     begin(at_end);
     return std::nullopt;
@@ -157,7 +159,7 @@ std::optional<double> HiddenCrossings::first(double from, double to, std::span<c
   const double t = closed_in(from, *beyond, tolerance, values);
   if (t - from <= 2 * tolerance) {  // the sign with which it begins was rounding
     begin(now_);
-    return first(t, to, at_end, values, true);
+    return first(t, to, at_end, values, reported);
   }
   crossed_.assign(at_end.size(), 0);
   for (std::size_t k = 0; k < at_end.size(); ++k) {

@@ -18,11 +18,13 @@ class HiddenCrossings {
 
   // Where steps begin.
   void begin(std::span<const double> values) { before_.assign(values.begin(), values.end()); }
-  // The instant just behind the first change of a sign before the second instant, whose values are `at_end`: who calls
-  // knows what changes there. Without one the next stretch begins at the second instant, else at what was found.
-  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values& values) {
-    return first(from, to, at_end, values, false);
-  }
+  // The instant just behind the first change of a sign before the second instant, whose values are `at_end`. Without
+  // one the next stretch begins at the second instant, else at what was found. `reported`: what changes at the second
+  // instant as far as the caller knows, all else that is another sign there counts as well; nothing where the caller
+  // compares for itself.
+  using Reported = std::optional<std::span<const int>>;
+  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&,
+                              const Reported& reported = {});
   // An instant within the step at which a sign is another one than at its beginning, the first that is looked at, and
   // not closed in on. The values of the beginning stay those of the step.
   std::optional<double> seen(double from, double to, std::span<const double> at_end, const Values&);
@@ -36,7 +38,6 @@ class HiddenCrossings {
     std::vector<double> values;
   };
 
-  std::optional<double> first(double from, double to, std::span<const double> at_end, const Values&, bool begins_anew);
   bool has_crossed(std::span<const double> values) const;
   std::vector<double> suspects(std::span<const double> at_end) const;
   const Look& look(double part, double from, double length, const Values&);
