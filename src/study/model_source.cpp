@@ -54,7 +54,8 @@ Parsed<MadeModel> made_model(Parsed<Dataset> parsed, Statements statements, cons
 
 Parsed<MadeModel> edited_model(const MadeModel& before, Parsed<EditedDataset> edit, const ModelOptions& options) {
   Parsed<MadeModel> made{{}, std::move(edit.diagnostics)};
-  auto built = build_model(edit.value.dataset, catalogue(), {.user_value = options.user_value, .edited = true}, options.routines);
+  auto built = build_model(edit.value.dataset, catalogue(), {.user_value = options.user_value, .edited = true},
+                           options.routines);
   made.value.dataset = std::move(edit.value.dataset), made.value.model = std::move(built.value);
   made.value.restated = std::move(edit.value.restated);
   made.value.warned = before.warned, made.value.warned_in = before.warned_in;

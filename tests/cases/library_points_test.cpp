@@ -6,9 +6,13 @@
 #include <filesystem>
 #include <string>
 
+#include "cases/as_others_do.h"
+
 namespace {
 
 using dynalin::Error;
+using dynalin::as_others_do::error_of;
+using dynalin::as_others_do::study_of;
 using ::testing::HasSubstr;
 
 // Of length 1, level at the start.
@@ -19,19 +23,6 @@ std::string pendulum(const std::string& turning) {
          "\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nVARIABLE/3, FUNCTION=AZ(21,1)\nEND\n";
 }
 const std::string swinging = pendulum("2"), resting = pendulum("0");
-
-dynalin::Study study_of(const std::string& text) { return dynalin::Study(dynalin::Model::from_text(text)); }
-
-template <class Action>
-Error error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Error("", {});
-}
 
 TEST(LibraryPoints, measures_functions_at_a_point) {
   const auto study = study_of(swinging);

@@ -13,9 +13,13 @@
 #include <numbers>
 #include <thread>
 
+#include "cases/as_others_do.h"
+
 namespace {
 
 using dynalin::Error;
+using dynalin::as_others_do::error_of;
+using dynalin::as_others_do::study_of;
 using ::testing::HasSubstr;
 
 const std::string pendulum =
@@ -26,20 +30,6 @@ const std::string pendulum =
     "SFORCE/1, ROTATIONAL, ACTIONONLY, I=20, J=20, FUNCTION=VARVAL(4)\nPINPUT/1, VARIABLES=4\nPOUTPUT/1, "
     "VARIABLES=3\nEND\n";
 const double pendulum_hz = std::sqrt(9.81 / 1.1) / (2 * std::numbers::pi);
-
-dynalin::Study study_of(const std::string& text) { return dynalin::Study(dynalin::Model::from_text(text)); }
-
-// The single problem of what is thrown.
-template <class Action>
-Error error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Error("", {});
-}
 
 TEST(Library, exports_nastran_decks) {
   const auto study = study_of(pendulum);

@@ -127,6 +127,15 @@ json parsed(const std::filesystem::path& path) {
   EXPECT_EQ(std::system(command.c_str()), 0);
   return json::parse(read_file(found));
 }
+// The components of requests in the map of the first analysis of a results file.
+std::vector<json> requests_in(const std::filesystem::path& results) {
+  const json analysis = parsed(results)[0];
+  std::vector<json> requests;
+  for (const auto& entry : analysis.at("map")) {
+    if (entry[3] == "Request") requests.push_back(entry);
+  }
+  return requests;
+}
 
 std::size_t place_of(const json& analysis, const std::string& entity, const std::string& component) {
   const json& map = analysis.at("map");
@@ -192,11 +201,7 @@ TEST_F(StepOutputs, name_components_of_requests_as_the_dataset_does) {
       "CUNITS=\"\",\"mm/s\", CLABELS=\"\",\"speed\"\nREQUEST/2, F2=1\\F4=2\nMREQUEST/1, FORCE, JOINTS=ALL\n");
   simulate(StepKind::kinematics, 0, 1, 1);
   finish();
-  const json a = parsed(folder_ / "model.res")[0];
-  std::vector<json> requests;
-  for (const auto& entry : a.at("map")) {
-    if (entry[3] == "Request") requests.push_back(entry);
-  }
+  const std::vector<json> requests = requests_in(folder_ / "model.res");
   ASSERT_EQ(requests.size(), 14u);
   EXPECT_EQ(requests[0], json::parse(R"(["tip", "u", "mm/s", "Request", "1", "speed"])"));
   EXPECT_EQ(requests[1], json::parse(R"(["tip", "v<w", "meter/sec", "Request", "1", null])"));
@@ -215,11 +220,7 @@ TEST_F(StepOutputs, name_components_of_requests_by_lists_with_colons) {
       "REQUEST/2, F2=1\\F3=2\\CNAMES=:x:y\nREQUEST/3, F2=1\\CNAMES=\"\",\"a:b\"\n");
   simulate(StepKind::kinematics, 0, 1, 1);
   finish();
-  const json a = parsed(folder_ / "model.res")[0];
-  std::vector<json> requests;
-  for (const auto& entry : a.at("map")) {
-    if (entry[3] == "Request") requests.push_back(entry);
-  }
+  const std::vector<json> requests = requests_in(folder_ / "model.res");
   ASSERT_EQ(requests.size(), 10u);
   EXPECT_EQ(requests[0], json::parse(R"(["tip", "u", "mm/s", "Request", "1", "speed"])"));
   EXPECT_EQ(requests[1], json::parse(R"(["tip", "v:w", "meter/sec", "Request", "1", null])"));
