@@ -111,8 +111,9 @@ LostDigits lost_digits(const System& system, AccelerationEquations& equations, c
   const std::vector<bool> inertia = with_inertia(equations);
   std::vector<double> parts(n, 0.0);
   for (std::int32_t k = 0; k < static_cast<std::int32_t>(count); ++k) {
-    // An answer that is nothing but rounding is zero, and so has no digits to lose.
-    if (size(k) <= 1e3 * rounding(k)) continue;
+    // An answer that is nothing but rounding is zero, and so has no digits to lose; nor has an acceleration that is
+    // nothing but what cancels in its terms.
+    if (size(k) <= 1e3 * rounding(k) || (k < augmented.lambda(0) && value(k) <= 1e3 * rounding(k))) continue;
     if (k < augmented.lambda(0) && !inertia[static_cast<std::size_t>(k)]) continue;
     // Nor has an algebraic value that is nothing but rounding a derivative to lose.
     const bool algebraic = k >= augmented.algebraic(0) && k < augmented.state(0);
