@@ -1,15 +1,14 @@
 #include "geometry/facet_body.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
-#include <unsupported/Eigen/BVH>
 
 #include "geometry/convex_body.h"
 #include "geometry/facet_planes.h"
+#include "geometry/facet_tree.h"
 
 namespace dynalin {
 
@@ -20,8 +19,6 @@ constexpr double pointed = 1e-5;       // sine by which all edges of a corner tu
 constexpr double equally_near = 1e-9;  // of the size: places that are as near
 constexpr double one_place = 1e-7;     // of the size: places that are not told apart
 
-using BoundingBox = Eigen::AlignedBox3d;
-Eigen::Vector3d to_eigen(const Vector& v) { return {v.x, v.y, v.z}; }
 Vector unit(const Vector& v) { return v / norm(v); }
 
 // Some direction that all of `edges`, unit vectors out of a vertex, turn away from: one exists where planes through
@@ -47,12 +44,6 @@ bool is_pointed(const std::vector<Vector>& edges, const Vector& outward) {
 
 }  // namespace
 
-struct FacetBody::Tree {
-  std::vector<int> items;
-  std::vector<BoundingBox> boxes;
-  Eigen::KdBVH<double, 3, int> hierarchy;
-};
-
 FacetBody::~FacetBody() = default;
 
 FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
@@ -69,6 +60,7 @@ FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   for (const Vector& v : vertices_) radius_ = std::max(radius_, norm(v - centre_));
 
   find_neighbours();
+  find_lumps();
   flatten();
   find_fans();
   classify_vertices();
@@ -96,6 +88,25 @@ void FacetBody::find_neighbours() {
   }
   for (Triangle& t : triangles_) {
     for (std::size_t n = 0; n < 3; ++n) t.across[n] = by_side.at(key(t.corner[(n + 1) % 3], t.corner[n]));
+  }
+}
+
+void FacetBody::find_lumps() {
+  constexpr Index none = std::numeric_limits<Index>::max();
+  lump_of_.assign(triangles_.size(), none);
+  Index lumps = 0;
+  std::vector<Index> next;
+  for (Index first = 0; first < triangles_.size(); ++first) {
+    if (lump_of_[first] != none) continue;
+    lump_of_[first] = lumps, next.push_back(first);
+    while (!next.empty()) {
+      const Index t = next.back();
+      next.pop_back();
+      for (const Index beside : triangles_[t].across) {
+        if (lump_of_[beside] == none) lump_of_[beside] = lumps, next.push_back(beside);
+      }
+    }
+    ++lumps;
   }
 }
 

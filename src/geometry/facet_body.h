@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/vec3.h"
@@ -18,6 +19,14 @@ class ConvexBody;
 
 class FacetBody {
  public:
+  using Index = Mesh::Index;
+  struct Triangle {
+    std::array<Index, 3> corner;  // counter-clockwise as seen from outside
+    std::array<Index, 3> across;  // the triangle at the edge from this corner to the next one
+    Vector normal;                // unit vector, outwards
+  };
+  struct Tree;  // of boxes about all triangles (facet_tree.h)
+
   // Of a mesh whose faces bound a volume and look outwards (mesh.h: close). Quadrilaterals are halved. Facets that are
   // of one plane but for the roundings of single precision, which files have, become so (facet_planes.h).
   explicit FacetBody(const Mesh&);
@@ -54,8 +63,17 @@ class FacetBody {
   Vector centre() const { return centre_; }
   double radius() const { return radius_; }  // about the centre, of all of it
 
+  const std::vector<Vector>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  // All about a corner of a triangle, one after the other.
+  std::span<const Index> around(Index triangle, std::size_t corner) const {
+    return fans_[fan_of_[triangle][corner]].triangles;
+  }
+  // Parts of the surface that hang together: of each triangle its number, from 0 on without gaps.
+  const std::vector<Index>& lump_of() const { return lump_of_; }
+  const Tree& tree() const { return *tree_; }
+
  private:
-  using Index = Mesh::Index;
   // The nearest place of one triangle.
   struct Near {
     Index triangle = 0;
@@ -64,7 +82,6 @@ class FacetBody {
     Vector point;
     double distance = std::numeric_limits<double>::infinity();
   };
-  struct Tree;
 
   Near nearest_of(Index triangle, const Vector& p) const;
   bool is_outside(const Near&, const Vector& p) const;
@@ -73,15 +90,11 @@ class FacetBody {
   void find_within(const Vector& p, double radius, std::vector<Near>&) const;
   Place place_of(const Near&, const Vector& p) const;
   void find_neighbours();
+  void find_lumps();
   void flatten();
   void find_fans();
   void classify_vertices();
 
-  struct Triangle {
-    std::array<Index, 3> corner;
-    std::array<Index, 3> across;  // the triangle at the edge from this corner to the next one
-    Vector normal;                // unit vector, outwards
-  };
   // What a vertex or an edge belongs to.
   struct VertexFeature {
     Feature feature;
@@ -97,6 +110,7 @@ class FacetBody {
 
   std::vector<Vector> vertices_;
   std::vector<Triangle> triangles_;
+  std::vector<Index> lump_of_;
   std::vector<Fan> fans_;
   std::vector<std::array<Index, 3>> fan_of_;  // of each corner of each triangle
   std::vector<VertexFeature> vertex_features_;

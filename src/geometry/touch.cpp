@@ -11,6 +11,7 @@
 #include "geometry/facet_touch.h"
 #include "geometry/frustum_touch.h"
 #include "geometry/low_on_circle.h"
+#include "geometry/overlap_touch.h"
 #include "geometry/plane_touch.h"
 
 namespace dynalin {
@@ -20,6 +21,14 @@ namespace {
 using namespace solid;  // NOLINT: the shapes of this file
 
 // --- which pairs there are: A with B, A not a cavity
+
+// Two of flat faces, which meet as convex bodies where both are.
+bool is_convex(const Box&) { return true; }
+bool is_convex(const Polyhedron& p) { return p.body->convex() != nullptr; }
+template <class A>
+bool meets_by_volume(const A& a, const Polyhedron& b, bool B_reversed) {
+  return B_reversed || !is_convex(a) || !is_convex(b);
+}
 
 // In a cavity: all of what is convex, but an ellipsoid meets flat walls and mantles alone, and a tube is no convex one.
 template <class A, class B>
@@ -42,12 +51,15 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
   } else if constexpr (std::is_same_v<B, Polyhedron>) {
     if constexpr (std::is_same_v<A, Ball>) return facet_touches(a);
     const ConvexBody* body = b.body->convex();
+    if constexpr (std::is_same_v<A, Box> || std::is_same_v<A, Polyhedron>) {
+      if (meets_by_volume(a, b, B_reversed)) return most_overlaps;
+    }
     if (!body || B_reversed) return 0;
     if constexpr (std::is_same_v<A, Ellipsoid> || std::is_same_v<A, Torus>) return 1;
     if constexpr (std::is_same_v<A, Frustum>) return frustum_flat_touches(*body);
     if constexpr (std::is_same_v<A, Box>) return convex_touches(outermost(a), body->corners().size());
     if constexpr (std::is_same_v<A, Polyhedron>)
-      return a.body->convex() ? convex_touches(a.body->convex()->corners().size(), body->corners().size()) : 0;
+      return convex_touches(a.body->convex()->corners().size(), body->corners().size());
     return 0;
   } else if constexpr (std::is_same_v<B, Plane>) {
     if constexpr (std::is_same_v<A, Ellipsoid>)
@@ -176,10 +188,18 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
           if constexpr (std::is_same_v<S, Torus>) touch_torus(a, A_from_B, b, out);
           if constexpr (std::is_same_v<S, Frustum>) touch_frustum(a, A_from_B, *b.body->convex(), out);
           if constexpr (std::is_same_v<S, Ellipsoid>) out[0] = touch_ellipsoid(a, A_from_B, *b.body->convex());
-          if constexpr (std::is_same_v<S, Box>)
-            touch_convex(ConvexBody::box(a.low, a.high), A_from_B, *b.body->convex(), out);
-          if constexpr (std::is_same_v<S, Polyhedron>)
-            touch_convex(*a.body->convex(), A_from_B, *b.body->convex(), out);
+          if constexpr (std::is_same_v<S, Box>) {
+            if (meets_by_volume(a, b, B.reversed))
+              touch_overlaps(facets_of_box(a.low, a.high), A_from_B, *b.body, B.reversed, out);
+            else
+              touch_convex(ConvexBody::box(a.low, a.high), A_from_B, *b.body->convex(), out);
+          }
+          if constexpr (std::is_same_v<S, Polyhedron>) {
+            if (meets_by_volume(a, b, B.reversed))
+              touch_overlaps(*a.body, A_from_B, *b.body, B.reversed, out);
+            else
+              touch_convex(*a.body->convex(), A_from_B, *b.body->convex(), out);
+          }
         } else if constexpr (std::is_same_v<U, Plane>) {
           touch_plane(a, A_from_B, b, B.reversed ? -1.0 : 1.0, out);
         } else {

@@ -131,12 +131,41 @@ TEST(ContactInTime, cubes_of_facets_tumble_as_boxes_do) {
   }
 }
 
+// About the middle of its body, a cube of 1 with a quarter of it cut out.
+std::string angle_of_facets(int id, int marker) {
+  return fmt::format(
+      "MATRIX/{0}, FULL=RORDER, ROWS=7, COLUMNS=3, VALUES=0,0,0, 1,0,0, 1,0.5,0, 0.5,0.5,0, 0.5,1,0, 0,1,0, 0,0,0\n"
+      "CURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, ORDER=2\nGRAPHICS/{0}, EXTRUSION, CID={0}, CRM={1}, LENGTH=1\n",
+      id, marker);
+}
+
+// Two feet meet a slab flat, with 2 k together: half a period of that, and it goes back as it came.
+TEST(ContactInTime, what_falls_flat_on_its_feet_leaves_as_fast) {
+  constexpr double k = 1e5, m = 2, v = 1, height = 0.1;
+  const double blow = std::numbers::pi / std::sqrt(2 * k / m);
+  const Course c = led_through_time(
+      "Feet\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/5, PART=1, QP=-2,-2,-0.5\n"
+      "GRAPHICS/1, BOX, CORNER=5, X=4, Y=4, Z=0.5\nPART/2, MASS=2, CM=2, IP=0.1,0.12,0.2, QG=0,0,0.35, "
+      "VZ=-1\nMARKER/2\n"
+      "MARKER/3, PART=2, QP=-0.5,0.2,-0.25, REULER=0,90D,0\n"
+      "MATRIX/2, FULL=RORDER, ROWS=9, COLUMNS=3, VALUES=0,0,0, 0.2,0,0, 0.2,0.3,0, 0.8,0.3,0, 0.8,0,0, 1,0,0, 1,0.5,0, "
+      "0,0.5,0, 0,0,0\nCURVE/2, CLOSED, MATRIX=2, CURVE_POINTS, ORDER=2\n"
+      "GRAPHICS/2, EXTRUSION, CID=2, CRM=3, LENGTH=0.4\n"
+      "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E5, EXPONENT=1, DAMPING=0, DMAX=1\n"
+      "VARIABLE/1, FUNCTION=DZ(2)\nVARIABLE/2, FUNCTION=VZ(2)\nVARIABLE/3, FUNCTION=WM(2)\nEND\n",
+      {.end = 2 * height / v + blow, .steps = 1, .error = 1e-10});
+  ASSERT_TRUE(c.ok()) << c.failure;
+  EXPECT_NEAR(c.last(1), 0.35, 1e-7);
+  EXPECT_NEAR(c.last(2), v, 1e-7);
+  EXPECT_NEAR(c.last(3), 0, 1e-7);
+}
+
 TEST(ContactInTime, bodies_of_facets_that_meet_keep_their_momentum_and_spin) {
   const std::string law =
       "IMPACT, STIFFNESS=2E5, EXPONENT=1.5, DAMPING=100, DMAX=0.001\n"
       ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2, STICTION_TRANSITION_VELOCITY=0.1"
       ", FRICTION_TRANSITION_VELOCITY=1\n";
-  for (const auto& other : {cube_of_facets(3, 6), ball_of_facets(3, 6), cube(3, 6)}) {
+  for (const auto& other : {cube_of_facets(3, 6), ball_of_facets(3, 6), cube(3, 6), angle_of_facets(3, 6)}) {
     const Course c =
         led_through_time(two_bodies(ball_of_facets(2, 4), other, law), {.end = 0.6, .steps = 60, .error = 1e-8});
     ASSERT_TRUE(c.ok()) << c.failure;

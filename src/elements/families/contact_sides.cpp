@@ -168,8 +168,8 @@ bool check_pairs(const Model& model, const ElementLabel& label, const ContactSid
                       model.label(J.graphics).text(), name_of(f.J[b].side), model.label(I.graphics).text(),
                       name_of(f.I[a].side)),
           "all solids touch each other, a PLANE and the walls of a cavity; but what is drawn in facets and not convex "
-          "touches balls, POINTs, PLANEs and walls of cavities in closed form alone (several convex bodies may stand "
-          "for it), cavities of facets hold balls and POINTs alone, of cavities ELLIPSOIDs touch BOX, CYLINDER and "
+          "touches no CYLINDER, FRUSTUM, TORUS or ELLIPSOID (an EXTRUSION or REVOLUTION may stand for these, several "
+          "convex bodies for it), cavities of facets hold none of these, of cavities ELLIPSOIDs touch BOX, CYLINDER and "
           "FRUSTUM alone, and CYLINDERs, FRUSTUMs and BOXes no TORUS; only one of two closed curves is a cavity");
       return false;
     }

@@ -1,0 +1,138 @@
+#include "geometry/facet_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "geometry/facet_tree.h"
+
+namespace dynalin {
+
+namespace {
+
+using Index = FacetBody::Index;
+using Corners = std::array<Vector, 3>;
+
+constexpr double slack = 1e-11;  // of the size: by which boxes are larger than what they hold
+
+Vector placed(const RelativeFrame<double>& f, const Vector& v) { return f.p + f.x * v.x + f.y * v.y + f.z * v.z; }
+
+// Boxes of I as they stand in the axes of J.
+class PlacedBoxes {
+ public:
+  PlacedBoxes(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J) : frame_(f) {
+    turn_.col(0) = to_eigen(f.x), turn_.col(1) = to_eigen(f.y), turn_.col(2) = to_eigen(f.z);
+    wider_ = Eigen::Vector3d::Constant(slack * (I.radius() + J.radius()));
+  }
+  BoundingBox operator()(const BoundingBox& box) const {
+    const Eigen::Vector3d middle = to_eigen(frame_.p) + turn_ * box.center();
+    const Eigen::Vector3d half = turn_.cwiseAbs() * (0.5 * box.sizes()) + wider_;
+    return {middle - half, middle + half};
+  }
+
+ private:
+  const RelativeFrame<double>& frame_;
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d wider_;
+};
+
+// What Eigen asks for the search of all pairs whose boxes overlap.
+struct Overlapping {
+  const FacetBody::Tree &I, &J;
+  PlacedBoxes placed;
+  std::vector<std::pair<Index, Index>> found;
+
+  BoundingBox box_I(int item) const { return I.boxes[static_cast<std::size_t>(item)]; }
+  BoundingBox box_J(int item) const { return J.boxes[static_cast<std::size_t>(item)]; }
+  bool intersectVolumeVolume(const BoundingBox& a, const BoundingBox& b) const { return placed(a).intersects(b); }
+  bool intersectVolumeObject(const BoundingBox& a, int b) const { return placed(a).intersects(box_J(b)); }
+  bool intersectObjectVolume(int a, const BoundingBox& b) const { return placed(box_I(a)).intersects(b); }
+  bool intersectObjectObject(int a, int b) {
+    if (placed(box_I(a)).intersects(box_J(b))) found.emplace_back(static_cast<Index>(a), static_cast<Index>(b));
+    return false;  // go on
+  }
+};
+
+// --- distances, squared
+
+double from_segment(const Vector& p, const Vector& from, const Vector& to) {
+  const Vector way = to - from;
+  const Vector apart = p - from - way * std::clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
+  return dot(apart, apart);
+}
+
+double between_segments(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  double least = std::min({from_segment(a, c, d), from_segment(b, c, d), from_segment(c, a, b), from_segment(d, a, b)});
+  // Where both are nearest between their ends, across both.
+  const Vector u = b - a, v = d - c, n = cross(u, v), w = c - a;
+  const double square = dot(n, n);
+  if (square <= 1e-24 * dot(u, u) * dot(v, v)) return least;
+  const double s = dot(cross(w, v), n) / square, t = dot(cross(w, u), n) / square;
+  if (s > 0 && s < 1 && t > 0 && t < 1) {
+    const double height = dot(w, n);
+    least = std::min(least, height * height / square);
+  }
+  return least;
+}
+
+// From the face of a triangle where the foot of p lies in it.
+double from_face(const Vector& p, const Corners& t) {
+  const Vector n = cross(t[1] - t[0], t[2] - t[0]);
+  const double square = dot(n, n), height = dot(n, p - t[0]);
+  const Vector foot = p - n * (height / square);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (dot(n, cross(t[(k + 1) % 3] - t[k], foot - t[k])) < 0) return std::numeric_limits<double>::infinity();
+  }
+  return height * height / square;
+}
+
+double between_triangles(const Corners& a, const Corners& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = std::min({least, from_face(a[i], b), from_face(b[i], a)});
+    for (std::size_t k = 0; k < 3; ++k)
+      least = std::min(least, between_segments(a[i], a[(i + 1) % 3], b[k], b[(k + 1) % 3]));
+  }
+  return least;
+}
+
+// And what it asks for the search of the least distance.
+struct Nearest {
+  using Scalar = double;
+  const FacetBody &of_I, &of_J;
+  const RelativeFrame<double>& frame;
+  PlacedBoxes placed_box;
+
+  BoundingBox box_I(int item) const { return of_I.tree().boxes[static_cast<std::size_t>(item)]; }
+  BoundingBox box_J(int item) const { return of_J.tree().boxes[static_cast<std::size_t>(item)]; }
+  double minimumOnVolumeVolume(const BoundingBox& a, const BoundingBox& b) const {
+    return placed_box(a).squaredExteriorDistance(b);
+  }
+  double minimumOnVolumeObject(const BoundingBox& a, int b) const { return minimumOnVolumeVolume(a, box_J(b)); }
+  double minimumOnObjectVolume(int a, const BoundingBox& b) const { return minimumOnVolumeVolume(box_I(a), b); }
+  double minimumOnObjectObject(int a, int b) const {
+    Corners at_I, at_J;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at_I[k] = placed(frame, of_I.vertices()[of_I.triangles()[static_cast<std::size_t>(a)].corner[k]]);
+      at_J[k] = of_J.vertices()[of_J.triangles()[static_cast<std::size_t>(b)].corner[k]];
+    }
+    return between_triangles(at_I, at_J);
+  }
+};
+
+}  // namespace
+
+std::vector<std::pair<Index, Index>> near_pairs(const FacetBody& I, const RelativeFrame<double>& f,
+                                                const FacetBody& J) {
+  Overlapping search{I.tree(), J.tree(), PlacedBoxes(I, f, J), {}};
+  Eigen::BVIntersect(I.tree().hierarchy, J.tree().hierarchy, search);
+  return std::move(search.found);
+}
+
+double least_distance(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J) {
+  Nearest search{I, J, f, PlacedBoxes(I, f, J)};
+  return std::sqrt(Eigen::BVMinimize(I.tree().hierarchy, J.tree().hierarchy, search));
+}
+
+}  // namespace dynalin

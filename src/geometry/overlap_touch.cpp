@@ -1,0 +1,231 @@
+#include "geometry/overlap_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "geometry/facet_overlap.h"
+#include "geometry/facet_pairs.h"
+#include "geometry/prism.h"
+
+namespace dynalin {
+
+namespace {
+
+using Index = FacetBody::Index;
+
+constexpr double least_net_area = 1e-6;  // of the area of a volume's surface: below it no direction is left
+constexpr double side_below = 0.05, face_above = 0.2;  // cosine between a facet and the net area: see NetArea
+constexpr double just_touching = 1e-12;                // of the size: a mean depth that is none
+constexpr double on_facet = 1e-9;                      // of its size: how far beside it a line still meets a facet
+
+template <class T>
+Vec3<T> turned(const RelativeFrame<T>& f, const Vector& v) {
+  return f.x * v.x + f.y * v.y + f.z * v.z;
+}
+
+// One of the bodies where it stands, in the axes of J.
+template <class T>
+struct PlacedFacets {
+  const FacetBody& body;
+  RelativeFrame<T> frame;
+  double sign;  // −1: what is around the facets
+
+  Vec3<T> normal(Index t) const { return turned(frame, body.triangles()[t].normal) * sign; }
+  Vec3<T> corner(Index t, std::size_t n) const {
+    return frame.p + turned(frame, body.vertices()[body.triangles()[t].corner[n % 3]]);
+  }
+  // How far along a line from a point the plane of a triangle is.
+  T length_to(Index t, const Vec3<T>& from, const Vec3<T>& way) const {
+    const Vec3<T> n = normal(t);
+    return dot(n, corner(t, 0) - from) / dot(n, way);
+  }
+};
+
+// Where a line through a volume leaves one of the bodies.
+struct Exit {
+  Index triangle = 0;
+  double length = 0;                                      // along the line
+  double seam = std::numeric_limits<double>::infinity();  // to the next edge between faces of two planes
+};
+
+// Of the facets that look along the line, the one that it meets nearest to where it starts.
+std::optional<Exit> exit_of(const PlacedFacets<double>& A, const std::vector<Overlap::Part>& facets, const Vector& from,
+                            const Vector& way) {
+  std::optional<Exit> nearest;
+  for (const auto& [t, area, by_shift, by_turn] : facets) {
+    const Vector n = A.normal(t);
+    if (!(dot(n, way) > 0)) continue;
+    Exit e{t, A.length_to(t, from, way)};
+    if (nearest && std::abs(e.length) >= std::abs(nearest->length)) continue;
+    const Vector at = from + way * e.length;
+    bool within = true;
+    for (std::size_t side = 0; side < 3 && within; ++side) {
+      const Vector begin = A.corner(t, side), along = A.corner(t, side + 1) - begin;
+      const double length = norm(along), depth = A.sign * dot(cross(n, along), at - begin) / length;
+      within = depth >= -on_facet * length;
+      const Index beside = A.body.triangles()[t].across[side];
+      if (norm(A.body.triangles()[beside].normal - A.body.triangles()[t].normal) > on_facet)
+        e.seam = std::min(e.seam, std::abs(depth));
+    }
+    if (within) nearest = e;
+  }
+  return nearest;
+}
+
+template <class T>
+RelativeFrame<double> plain(const RelativeFrame<T>& f) {
+  return {value_of(f.p), value_of(f.x), value_of(f.y), value_of(f.z)};
+}
+
+// A motion of I as a shift of what of it is at a place and a turn, both 0 with the derivatives that the frame has.
+template <class T>
+struct Nudge {
+  Vec3<T> shift, turn;
+
+  Nudge(const RelativeFrame<T>& f, const Vector& place) {
+    const RelativeFrame<double> at = plain(f);
+    turn = (cross(at.x, f.x) + cross(at.y, f.y) + cross(at.z, f.z)) * 0.5;
+    shift = f.p - at.p + cross(turn, place - at.p);
+  }
+  T of(double value, const Vector& by_shift, const Vector& by_turn) const {
+    return dot(shift, by_shift) + dot(turn, by_turn) + value;
+  }
+  Vec3<T> of(const Vector& value, const Matrix3& by_shift, const Matrix3& by_turn) const {
+    return by_shift * shift + by_turn * turn + value;
+  }
+};
+
+// --- the normal
+
+// 0 below the first number, 1 above the second one.
+template <class T>
+T step(const T& x, double from, double to) {
+  if (value_of(x) <= from) return T(0.0);
+  if (value_of(x) >= to) return T(1.0);
+  const T s = (x - from) / (to - from);
+  return s * s * (3.0 - 2.0 * s);
+}
+
+// The surface of one body that is in the other one, as seen from where that comes from.
+template <class T>
+struct NetArea {
+  Vec3<T> all{T(0.0), T(0.0), T(0.0)};   // ∫ n dS
+  Vec3<T> face{T(0.0), T(0.0), T(0.0)};  // without sides
+  T sides{0.0};                          // their area
+};
+
+double surface_of(const std::vector<Overlap::Part>& parts) {
+  double sum = 0;
+  for (const Overlap::Part& p : parts) sum += p.area;
+  return sum;
+}
+
+template <class T>
+NetArea<T> net_area(const PlacedFacets<T>& A, const std::vector<Overlap::Part>& parts, const Nudge<T>& nudge) {
+  NetArea<T> net;
+  std::vector<std::pair<T, Vec3<T>>> faces;
+  for (const Overlap::Part& p : parts) {
+    faces.emplace_back(nudge.of(p.area, p.area_by_shift, p.area_by_turn), A.normal(p.triangle));
+    net.all += faces.back().second * faces.back().first;
+  }
+  net.face = net.all;
+  const T size = norm(net.all);
+  if (value_of(size) <= least_net_area * surface_of(parts)) return net;
+  const Vec3<T> towards = net.all / size;
+  Vec3<T> of_sides{T(0.0), T(0.0), T(0.0)};
+  T area(0.0);
+  for (const auto& [of_face, n] : faces) {
+    const T cosine = dot(n, towards),
+            share = 1.0 - step(value_of(cosine) < 0 ? -cosine : cosine, side_below, face_above);
+    of_sides += n * (of_face * share), area += of_face * share;
+  }
+  if (!(value_of(area) > 0)) return net;
+  // The square: a norm has no derivative at 0.
+  const T sideways = dot(of_sides, of_sides) / (size * size);
+  const T left_out = 1.0 - step(sideways, 0.01, 0.09);
+  net.face = net.all - of_sides * left_out, net.sides = area * left_out;
+  return net;
+}
+
+// Both bodies' areas are opposite, as they bound one volume; without sides they incline to each other as faces do. That
+// of a body with fewer sides counts, as the face of a floor does for a block that stands on it.
+template <class T>
+std::optional<Vec3<T>> normal_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J,
+                                 const Nudge<T>& nudge) {
+  const NetArea<T> of_I = net_area(I, o.of_I, nudge), of_J = net_area(J, o.of_J, nudge);
+  const double least = least_net_area * surface_of(o.of_J);
+  if (value_of(norm(of_J.all)) <= least) return std::nullopt;
+  const T sides = of_I.sides + of_J.sides;
+  if (value_of(sides) <= least) return normalized(of_J.all);
+  return normalized(of_J.face * (of_I.sides / sides) - of_I.face * (of_J.sides / sides));
+}
+
+template <class T>
+Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J) {
+  // Of a touch alone roundings are left.
+  if (o.volume <= just_touching * (I.body.radius() + J.body.radius()) * surface_of(o.of_J)) return {};
+  const Nudge<T> nudge(I.frame, o.origin);
+  const T volume = nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn);
+  const Vec3<T> centroid = nudge.of(o.moment, o.moment_by_shift, o.moment_by_turn) / volume + o.origin;
+  Touch<T> t;
+  t.gap = T(-std::cbrt(o.volume));
+  t.normal = {T(0.0), T(0.0), T(1.0)}, t.point = centroid;
+  t.defined = false;
+  const auto found = normal_of(o, I, J, nudge);
+  if (!o.whole || !found) return t;
+  const Vec3<T>& normal = *found;
+  const PlacedFacets<double> plain_I{I.body, plain(I.frame), I.sign}, plain_J{J.body, plain(J.frame), J.sign};
+  const Vector from = value_of(centroid), way = value_of(normal);
+  const auto up = exit_of(plain_J, o.of_J, from, way), down = exit_of(plain_I, o.of_I, from, -way);
+  if (!up || !down || !(up->length + down->length > 0)) return t;
+  const T above = J.length_to(up->triangle, centroid, normal), below = I.length_to(down->triangle, centroid, -normal);
+  t.gap = -(above + below);
+  t.normal = normal, t.point = centroid + normal * ((above - below) * 0.5);
+  t.seam = std::min(up->seam, down->seam);
+  t.defined = true;
+  return t;
+}
+
+}  // namespace
+
+template <class T>
+void touch_overlaps(const FacetBody& I_body, const RelativeFrame<T>& I_from_J, const FacetBody& J_body, bool cavity,
+                    std::span<Touch<T>> out) {
+  const RelativeFrame<double> f = plain(I_from_J);
+  const double size = I_body.radius() + J_body.radius();
+  const Overlaps found = find_overlaps(I_body, f, J_body, cavity);
+  Touch<T> far;
+  far.gap = T(size), far.normal = {T(0.0), T(0.0), T(1.0)};
+  std::ranges::fill(out, far);
+  if (found.engulfed || !found.definite) {
+    out[0].gap = T(-size), out[0].defined = false;
+    return;
+  }
+  const PlacedFacets<T> I{I_body, I_from_J, 1};
+  const Vec3<T> x{T(1.0), T(0.0), T(0.0)}, y{T(0.0), T(1.0), T(0.0)}, z{T(0.0), T(0.0), T(1.0)};
+  const PlacedFacets<T> J{J_body, {{T(0.0), T(0.0), T(0.0)}, x, y, z}, cavity ? -1.0 : 1.0};
+  std::size_t count = 0;
+  for (const Overlap& o : found.volumes) {
+    if (count == out.size()) {
+      out.back().defined = false;
+      return;
+    }
+    out[count++] = touch_of(o, I, J);
+  }
+  if (count == 0) out[0].gap = T(found.volumes.empty() ? least_distance(I_body, f, J_body) : 0.0);
+}
+
+FacetBody facets_of_box(const Vector& low, const Vector& high) {
+  Mesh mesh = box(high - low);
+  for (Vector& v : mesh.vertices) v += low;
+  return FacetBody(mesh);
+}
+
+template void touch_overlaps(const FacetBody&, const RelativeFrame<double>&, const FacetBody&, bool,
+                             std::span<Touch<double>>);
+template void touch_overlaps(const FacetBody&, const RelativeFrame<Dual<12>>&, const FacetBody&, bool,
+                             std::span<Touch<Dual<12>>>);
+
+}  // namespace dynalin

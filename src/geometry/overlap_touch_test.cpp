@@ -1,0 +1,339 @@
+// Bodies of facets that are not convex, and boxes in cavities: volumes in common, where they push and how that changes.
+#include "geometry/overlap_touch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "geometry/facet_overlap.h"
+#include "geometry/moved_frame_test_support.h"
+#include "geometry/polygon.h"
+#include "geometry/prism.h"
+
+namespace dynalin::overlap_touch_test {
+namespace {
+
+using Seeded = Dual<12>;
+
+Mesh box_at(const Vector& low, const Vector& high) {
+  Mesh mesh = box(high - low);
+  for (Vector& v : mesh.vertices) v += low;
+  return mesh;
+}
+// An outline in the plane of x and y, swept along z.
+FacetBody swept(const std::vector<std::array<double, 2>>& outline, double low, double high) {
+  std::vector<Vector> corners;
+  for (const auto& [x, y] : outline) corners.push_back({x, y, low});
+  return FacetBody(prism(corners, Outline::closed, {0, 0, high - low}));
+}
+FacetBody angle() { return swept({{0, 0}, {1, 0}, {1, 0.3}, {0.4, 0.3}, {0.4, 0.9}, {0, 0.9}}, -0.3, 0.4); }
+FacetBody star(int points) {
+  std::vector<std::array<double, 2>> outline;
+  for (int k = 0; k < 2 * points; ++k) {
+    const double r = k % 2 == 0 ? 0.7 : 0.35, a = std::numbers::pi * k / points;
+    outline.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return swept(outline, -0.25, 0.3);
+}
+// A plate of 2 by 2 on legs of 0.2 by 0.2 and 0.5 at its corners, whose feet are at z = 0.
+FacetBody table() {
+  Mesh mesh = box_at({-1, -1, 0.5}, {1, 1, 0.6});
+  for (const double x : {-1.0, 0.8}) {
+    for (const double y : {-1.0, 0.8}) append(mesh, box_at({x, y, 0}, {x + 0.2, y + 0.2, 0.4}));
+  }
+  return FacetBody(mesh);
+}
+
+const RelativeFrame<double> upright{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+RelativeFrame<double> at(const Vector& p) { return {p, upright.x, upright.y, upright.z}; }
+
+std::vector<Touch<double>> touches(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J,
+                                   bool cavity = false) {
+  std::vector<Touch<double>> list(most_overlaps);
+  touch_overlaps<double>(I, f, J, cavity, list);
+  std::erase_if(list, [](const auto& t) { return !t.closed(); });
+  return list;
+}
+std::vector<Touch<Seeded>> seeded_touches(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J,
+                                          bool cavity = false) {
+  const auto along = [](const Vector& v) { return Vec3<Taylor>{Taylor(v.x), Taylor(v.y), Taylor(v.z)}; };
+  const auto s = path::seeded<12>({along(f.p), along(f.x), along(f.y), along(f.z)});
+  const auto values = [](const auto& v) { return Vec3<Seeded>{v.x.value, v.y.value, v.z.value}; };
+  std::vector<Touch<Seeded>> list(most_overlaps);
+  touch_overlaps<Seeded>(I, {values(s.p), values(s.x), values(s.y), values(s.z)}, J, cavity, list);
+  std::erase_if(list, [](const auto& t) { return !t.closed(); });
+  return list;
+}
+
+RelativeFrame<double> from_other(const RelativeFrame<double>& f) {
+  return {-Vector{dot(f.x, f.p), dot(f.y, f.p), dot(f.z, f.p)},
+          {f.x.x, f.y.x, f.z.x},
+          {f.x.y, f.y.y, f.z.y},
+          {f.x.z, f.y.z, f.z.z}};
+}
+void expect_near(const Vector& a, const Vector& b, double tolerance) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
+}
+
+class overlap_touch : public ::testing::Test {
+ protected:
+  RelativeFrame<double> pose(double far) {
+    std::normal_distribution<double> n;
+    const Matrix3 R = rotation_exponential({n(random_), n(random_), n(random_)});
+    return {{far * n(random_), far * n(random_), far * n(random_)}, R.x, R.y, R.z};
+  }
+  std::mt19937_64 random_{5};
+};
+
+// Of two boxes, by the corners of what planes of both bound: every three planes meet in one, and a face is divided into
+// triangles about its middle.
+struct Common {
+  double volume = 0;
+  Vector centroid{};
+};
+Common common_of_boxes(const Vector& half_I, const RelativeFrame<double>& f, const Vector& half_J) {
+  struct Bound {
+    Vector n;
+    double height;
+  };
+  std::vector<Bound> bounds;
+  for (const double s : {1.0, -1.0}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector axis = k == 0 ? f.x : k == 1 ? f.y : f.z;
+      bounds.push_back({s * axis, s * dot(axis, f.p) + half_I[k]});
+      bounds.push_back({s * unit_vectors[k], half_J[k]});
+    }
+  }
+  Common c;
+  Vector moment{};
+  for (std::size_t a = 0; a < bounds.size(); ++a) {
+    std::vector<Vector> corners;
+    for (std::size_t b = 0; b < bounds.size(); ++b) {
+      for (std::size_t d = b + 1; d < bounds.size(); ++d) {
+        const Vector &p = bounds[a].n, &q = bounds[b].n, &r = bounds[d].n;
+        const double det = dot(p, cross(q, r));
+        if (a == b || a == d || std::abs(det) < 1e-9) continue;
+        const Vector x =
+            (cross(q, r) * bounds[a].height + cross(r, p) * bounds[b].height + cross(p, q) * bounds[d].height) / det;
+        if (std::ranges::all_of(bounds, [&](const Bound& e) { return dot(e.n, x) <= e.height + 1e-10; }))
+          corners.push_back(x);
+      }
+    }
+    if (corners.size() < 3) continue;
+    Vector middle{};
+    for (const Vector& v : corners) middle += v / static_cast<double>(corners.size());
+    const Vector x = normalized(corners[0] - middle), y = cross(bounds[a].n, x);
+    std::ranges::sort(corners, {}, [&](const Vector& v) { return std::atan2(dot(y, v - middle), dot(x, v - middle)); });
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vector &u = corners[k], &v = corners[(k + 1) % corners.size()];
+      const double six = dot(middle, cross(u, v));
+      c.volume += six / 6, moment += (middle + u + v) * (six / 24);
+    }
+  }
+  c.centroid = moment / c.volume;
+  return c;
+}
+
+}  // namespace
+
+TEST_F(overlap_touch, volumes_of_two_boxes_are_what_their_planes_bound) {
+  const Vector half_I{0.5, 0.4, 0.3}, half_J{0.6, 0.3, 0.45};
+  const FacetBody I = facets_of_box(-half_I, half_I), J = facets_of_box(-half_J, half_J);
+  int seen = 0;
+  for (int k = 0; k < 200; ++k) {
+    const auto f = pose(0.45);
+    const Overlaps found = find_overlaps(I, f, J, false);
+    ASSERT_TRUE(found.definite);
+    if (found.engulfed || found.volumes.empty()) continue;
+    ++seen;
+    ASSERT_EQ(found.volumes.size(), 1u);
+    const Overlap& o = found.volumes.front();
+    const Common wanted = common_of_boxes(half_I, f, half_J);
+    EXPECT_NEAR(o.volume, wanted.volume, 1e-11);
+    expect_near(o.origin + o.moment / o.volume, wanted.centroid, 1e-10 / wanted.volume);
+    EXPECT_TRUE(o.whole);
+  }
+  EXPECT_GT(seen, 80);
+}
+
+TEST_F(overlap_touch, a_table_stands_on_each_of_its_legs) {
+  const FacetBody feet = table(), floor = facets_of_box({-2, -2, -0.5}, {2, 2, 0});
+  auto list = seeded_touches(feet, at({0.1, -0.2, -0.01}), floor);
+  ASSERT_EQ(list.size(), 4u);
+  for (const auto& t : list) {
+    EXPECT_TRUE(t.defined);
+    EXPECT_NEAR(t.gap.value, -0.01, 1e-12);
+    expect_near(value_of(t.normal), {0, 0, 1}, 1e-12);
+    const Vector p = value_of(t.point);
+    EXPECT_NEAR(std::abs(p.x - 0.1), 0.9, 1e-11);
+    EXPECT_NEAR(std::abs(p.y + 0.2), 0.9, 1e-11);
+    EXPECT_NEAR(p.z, -0.005, 1e-12);
+    // Up, and as I turns about its origin by the arm of the place.
+    const std::array<double, 6> wanted{0, 0, 1, p.y + 0.2, -(p.x - 0.1), 0};
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_NEAR(t.gap.partial[k], wanted[k], 1e-10) << k;
+      // The floor's: it does not turn with the legs.
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(t.normal[c].partial[k], 0, 1e-10) << k;
+    }
+  }
+  EXPECT_EQ(touches(feet, at({0.1, -0.2, 0.02}), floor).size(), 0u);
+  std::vector<Touch<double>> open(most_overlaps);
+  touch_overlaps<double>(feet, at({0.1, -0.2, 0.02}), floor, false, open);
+  EXPECT_NEAR(open.front().gap, 0.02, 1e-15);
+}
+
+TEST_F(overlap_touch, of_a_corner_an_edge_and_two_crossing_edges_is_as_deep_as_they_are) {
+  // What is not convex has it far from here.
+  const FacetBody hook = swept({{-1, -1}, {1, -1}, {1, 1}, {0.8, 1}, {0.8, -0.8}, {-1, -0.8}}, -1, 1);
+  const FacetBody cube = facets_of_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  // A corner of the cube below the face y = −0.8, at a turn where no two of its faces incline alike.
+  const Matrix3 R = rotation_exponential({0.5, 0.3, 0.7});
+  RelativeFrame<double> f{{0, 0, 0}, R.x, R.y, R.z};
+  double lowest = 0;
+  for (const Vector& v : cube.vertices()) lowest = std::min(lowest, (R * v).y);
+  f.p = {-0.3, -0.8 - lowest - 0.01, 0};
+  auto list = touches(cube, f, hook);
+  ASSERT_EQ(list.size(), 1u);
+  expect_near(list[0].normal, {0, 1, 0}, 1e-10);
+  EXPECT_LE(-list[0].gap, 0.01 + 1e-12);
+  EXPECT_GE(-list[0].gap, 0.005);
+  // Edges across each other: that of the cube along (1, 0, 1) about z turned by 45 degrees, on x = 0.8, y = 1.
+  const double h = std::sqrt(0.5);
+  const RelativeFrame<double> turned{{0.9 + 0, 1 + h - 0.02, 0}, {h, 0, h}, {-0.5, h, 0.5}, {-0.5, -h, 0.5}};
+  list = touches(cube, turned, hook);
+  ASSERT_EQ(list.size(), 1u);
+  expect_near(list[0].normal, {0, 1, 0}, 1e-10);
+  EXPECT_NEAR(list[0].gap, -0.02, 1e-10);
+}
+
+TEST_F(overlap_touch, changes_as_the_bodies_move) {
+  const auto a = angle(), s = star(5), cube = facets_of_box({-0.4, -0.3, -0.5}, {0.4, 0.3, 0.5});
+  const std::array<std::pair<const FacetBody*, const FacetBody*>, 4> pairs{{{&a, &s}, {&s, &a}, {&cube, &s}, {&a, &a}}};
+  int seen = 0, several = 0;
+  for (int k = 0; k < 400; ++k) {
+    const auto& [I, J] = pairs[static_cast<std::size_t>(k) % pairs.size()];
+    const auto f = pose(0.6);
+    const auto list = seeded_touches(*I, f, *J);
+    if (list.empty() || std::ranges::any_of(list, [](const auto& t) { return !t.defined || t.seam < 1e-4; })) continue;
+    if (std::ranges::any_of(list, [](const auto& t) { return t.gap.value < -0.3; })) continue;
+    ++seen, several += list.size() > 1;
+    constexpr double h = 1e-6;
+    for (std::size_t n = 0; n < 6; ++n) {
+      const auto plus = touches(*I, moved(f, n, h), *J), minus = touches(*I, moved(f, n, -h), *J);
+      if (plus.size() != list.size() || minus.size() != list.size()) continue;
+      for (const auto& t : list) {
+        const auto like = [&](const std::vector<Touch<double>>& of) {
+          return *std::ranges::min_element(of, {}, [&](const auto& o) { return norm(o.point - value_of(t.point)); });
+        };
+        const Touch<double> up = like(plus), down = like(minus);
+        const auto expect = [&](double partial, double high, double low) {
+          EXPECT_NEAR(partial, (high - low) / (2 * h), 2e-5 * (1 + std::abs(partial))) << k << ' ' << n;
+        };
+        expect(t.gap.partial[n], up.gap, down.gap);
+        for (std::size_t c = 0; c < 3; ++c) {
+          expect(t.normal[c].partial[n], up.normal[c], down.normal[c]);
+          expect(t.point[c].partial[n], up.point[c], down.point[c]);
+        }
+      }
+    }
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(seen, 60);
+  EXPECT_GT(several, 3);
+}
+
+TEST_F(overlap_touch, is_the_same_seen_from_either_body) {
+  const auto a = angle(), s = star(7);
+  int seen = 0;
+  for (int k = 0; k < 200; ++k) {
+    const auto f = pose(0.6);
+    auto one = touches(a, f, s), other = touches(s, from_other(f), a);
+    if (one.empty()) continue;
+    ++seen;
+    ASSERT_EQ(one.size(), other.size());
+    const auto deeper = [](const auto& t) { return t.gap; };
+    std::ranges::sort(one, {}, deeper), std::ranges::sort(other, {}, deeper);
+    for (std::size_t n = 0; n < one.size(); ++n) {
+      EXPECT_EQ(one[n].defined, other[n].defined);
+      if (!one[n].defined) continue;
+      const Touch<double>& t = other[n];
+      const Vector point = f.p + f.x * t.point.x + f.y * t.point.y + f.z * t.point.z;
+      // What of either surface is in the other one has the same net area but for roundings.
+      EXPECT_NEAR(one[n].gap, t.gap, 1e-9);
+      expect_near(one[n].normal, -(f.x * t.normal.x + f.y * t.normal.y + f.z * t.normal.z), 1e-8);
+      expect_near(one[n].point, point, 1e-8);
+    }
+  }
+  EXPECT_GT(seen, 100);
+}
+
+TEST_F(overlap_touch, of_parts_drawn_flush_is_as_deep_as_they_are) {
+  const FacetBody a = angle();
+  // On top of itself: all its sides are in those of the other one, and edges lie on diagonals of facets.
+  auto list = touches(a, at({0, 0, 0.69}), a);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_TRUE(list[0].defined);
+  EXPECT_NEAR(list[0].gap, -0.01, 1e-11);
+  expect_near(list[0].normal, {0, 0, 1}, 1e-12);
+  list = touches(table(), at({0, 0, -0.01}), facets_of_box({-1, -1, -0.5}, {1, 1, 0}));
+  ASSERT_EQ(list.size(), 4u);
+  for (const auto& t : list) EXPECT_NEAR(t.gap, -0.01, 1e-11);
+}
+
+TEST_F(overlap_touch, of_what_reaches_over_an_edge_is_across_the_faces) {
+  const FacetBody feet = table(), floor = facets_of_box({-0.9, -2, -0.5}, {2, 2, 0});
+  const auto list = seeded_touches(feet, at({0, 0, -0.001}), floor);
+  ASSERT_EQ(list.size(), 4u);
+  for (const auto& t : list) {
+    EXPECT_NEAR(t.gap.value, -0.001, 1e-12);
+    expect_near(value_of(t.normal), {0, 0, 1}, 1e-12);
+    // Two stand as on a floor without end. Two reach over its edge: of the sides of what they have in common one is
+    // that of the floor, three are of the leg, of 0.2 and twice 0.1.
+    const bool reaches_over = t.point.x.value < 0;
+    EXPECT_NEAR(t.point.x.value, reaches_over ? -0.85 : 0.9, 1e-11);
+    EXPECT_NEAR(t.normal.x.partial[4], reaches_over ? 1.0 / 3 : 0, 1e-9);
+  }
+}
+
+TEST_F(overlap_touch, in_a_cavity_is_that_with_its_walls) {
+  const FacetBody room = facets_of_box({-1, -1, -1}, {1, 1, 1}),
+                  cube = facets_of_box({-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
+  EXPECT_EQ(touches(cube, at({0, 0.1, 0}), room, true).size(), 0u);
+  auto list = touches(cube, at({0.72, 0.1, 0}), room, true);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_TRUE(list[0].defined);
+  EXPECT_NEAR(list[0].gap, -0.02, 1e-12);
+  expect_near(list[0].normal, {-1, 0, 0}, 1e-12);
+  expect_near(list[0].point, {1.01, 0.1, 0}, 1e-11);
+  // In a notch of a star, as it stands in one that is cut out of everything else.
+  const FacetBody hollow = star(5);
+  int seen = 0;
+  for (int k = 0; k < 100; ++k) {
+    const auto f = pose(0.2);
+    const FacetBody small = facets_of_box({-0.12, -0.1, -0.1}, {0.12, 0.1, 0.1});
+    for (const auto& t : touches(small, f, hollow, true)) {
+      seen += t.defined;
+      EXPECT_LT(norm(t.normal) - 1, 1e-12);
+    }
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST_F(overlap_touch, has_no_direction_all_around_and_wholly_inside) {
+  const FacetBody hollow = angle(), small = facets_of_box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0.02});
+  const auto inside = touches(small, at({0.2, 0.2, 0}), hollow);
+  ASSERT_EQ(inside.size(), 1u);
+  EXPECT_FALSE(inside[0].defined);
+  // A bar through the arm of it from side to side.
+  const FacetBody bar = facets_of_box({-0.05, -0.05, -2}, {0.05, 0.05, 2});
+  const auto through = touches(bar, at({0.2, 0.15, 0}), hollow);
+  ASSERT_EQ(through.size(), 1u);
+  EXPECT_FALSE(through[0].defined);
+}
+
+}  // namespace dynalin::overlap_touch_test
