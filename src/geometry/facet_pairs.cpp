@@ -97,12 +97,28 @@ double between_triangles(const Corners& a, const Corners& b) {
   return least;
 }
 
+// Whether all of b is in front of the plane that holds one edge of a and stands across a's face, or of the face itself,
+// by at least the root of `square`.
+bool is_beyond(const Corners& a, const Corners& b, double square) {
+  const Vector n = cross(a[1] - a[0], a[2] - a[0]);
+  const auto in_front = [&](const Vector& out, const Vector& from) {
+    const double least = std::min({dot(out, b[0] - from), dot(out, b[1] - from), dot(out, b[2] - from)});
+    return least > 0 && least * least >= square * dot(out, out);
+  };
+  if (in_front(n, a[0]) || in_front(-n, a[0])) return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (in_front(cross(a[(k + 1) % 3] - a[k], n), a[k])) return true;
+  }
+  return false;
+}
+
 // And what it asks for the search of the least distance.
 struct Nearest {
   using Scalar = double;
   const FacetBody &of_I, &of_J;
   const RelativeFrame<double>& frame;
   PlacedBoxes placed_box;
+  double least = std::numeric_limits<double>::infinity();
 
   BoundingBox box_I(int item) const { return of_I.tree().boxes[static_cast<std::size_t>(item)]; }
   BoundingBox box_J(int item) const { return of_J.tree().boxes[static_cast<std::size_t>(item)]; }
@@ -111,13 +127,16 @@ struct Nearest {
   }
   double minimumOnVolumeObject(const BoundingBox& a, int b) const { return minimumOnVolumeVolume(a, box_J(b)); }
   double minimumOnObjectVolume(int a, const BoundingBox& b) const { return minimumOnVolumeVolume(box_I(a), b); }
-  double minimumOnObjectObject(int a, int b) const {
+  double minimumOnObjectObject(int a, int b) {
     Corners at_I, at_J;
     for (std::size_t k = 0; k < 3; ++k) {
       at_I[k] = placed(frame, of_I.vertices()[of_I.triangles()[static_cast<std::size_t>(a)].corner[k]]);
       at_J[k] = of_J.vertices()[of_J.triangles()[static_cast<std::size_t>(b)].corner[k]];
     }
-    return between_triangles(at_I, at_J);
+    // Caps of long, thin triangles have many pairs whose boxes overlap.
+    if (is_beyond(at_I, at_J, least) || is_beyond(at_J, at_I, least)) return least;
+    least = std::min(least, between_triangles(at_I, at_J));
+    return least;
   }
 };
 

@@ -211,6 +211,37 @@ TEST_F(overlap_touch, of_a_corner_an_edge_and_two_crossing_edges_is_as_deep_as_t
   EXPECT_NEAR(list[0].gap, -0.02, 1e-10);
 }
 
+TEST_F(overlap_touch, what_is_apart_is_as_far_as_its_nearest_features) {
+  const auto gap = [](const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J) {
+    std::vector<Touch<double>> open(most_overlaps);
+    touch_overlaps<double>(I, f, J, false, open);
+    EXPECT_FALSE(open.front().closed());
+    return open.front().gap;
+  };
+  const FacetBody a = angle(), cube = facets_of_box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+  EXPECT_NEAR(gap(cube, at({0.75, 0.55, 0}), a), 0.15, 1e-15);             // face over face
+  EXPECT_NEAR(gap(cube, at({1.4, 0.7, 0.8}), a), std::sqrt(0.27), 1e-15);  // corner to corner
+  EXPECT_NEAR(gap(cube, at({0.7, 0.6, 0}), a), 0.2, 1e-15);                // in the corner between both arms
+  // An edge of either across each other: along (1, 0, 1), and along z.
+  const double h = std::sqrt(0.5);
+  const RelativeFrame<double> turned{{1 + 0.2 * h + 0.03, 0.2, 0}, {h, h, 0}, {-h, h, 0}, {0, 0, 1}};
+  EXPECT_NEAR(gap(cube, turned, a), 0.03, 1e-15);
+  const RelativeFrame<double> on_edge{{0.2, 1.2, 0}, {h, 0, h}, {0, 1, 0}, {-h, 0, h}};
+  EXPECT_NEAR(gap(cube, on_edge, a), 0.2, 1e-15);
+  // From either, wherever they stand: what is nearest is so seen from both.
+  for (int k = 0; k < 100; ++k) {
+    const auto f = pose(1.5);
+    std::vector<Touch<double>> one(most_overlaps), other(most_overlaps);
+    touch_overlaps<double>(a, f, a, false, one), touch_overlaps<double>(a, from_other(f), a, false, other);
+    if (one.front().closed()) continue;
+    EXPECT_NEAR(one.front().gap, other.front().gap, 1e-12);
+    double by_vertices = 1e300;
+    for (const Vector& v : a.vertices())
+      by_vertices = std::min(by_vertices, a.nearest(f.p + f.x * v.x + f.y * v.y + f.z * v.z).distance);
+    EXPECT_LE(one.front().gap, by_vertices + 1e-12);
+  }
+}
+
 TEST_F(overlap_touch, changes_as_the_bodies_move) {
   const auto a = angle(), s = star(5), cube = facets_of_box({-0.4, -0.3, -0.5}, {0.4, 0.3, 0.5});
   const std::array<std::pair<const FacetBody*, const FacetBody*>, 4> pairs{{{&a, &s}, {&s, &a}, {&cube, &s}, {&a, &a}}};
