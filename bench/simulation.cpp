@@ -8,12 +8,14 @@
 //     simulation contact 1         balls that bounce, an IMPACT of stiffness 1e8 each
 //     simulation bowl 100          a ball that rolls in a bowl of 2 n² facets
 //     simulation eggs 50           a ball of 2 n² facets that falls on another one and rolls off it
+//     simulation wheels 20         a toothed wheel of 56 n facets that drives another one against a brake
 //
 // A third argument is the time to simulate, a fourth the intervals of output, a fifth ERROR.
 #include "study/simulation.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -155,6 +157,54 @@ std::string eggs(int n) {
                     n + 1, points.substr(2), n, n);
 }
 
+// The outline of a wheel of n involute teeth of the module 0.01 and a pressure angle of 20 degrees, the middle of one
+// of them at `angle`.
+std::string teeth(int n, double angle, int id, int marker) {
+  constexpr double module = 0.01, pressure = 0.3490658503988659, pi = 3.14159265358979324;
+  constexpr int pieces = 6;
+  const double pitch = module * n / 2, base = pitch * std::cos(pressure), inner = pitch - 1.25 * module;
+  const auto involute = [](double a) { return std::tan(a) - a; };
+  // Of half a tooth, with a clearance.
+  const auto half = [&](double r) {
+    return pi / 2 / n - 1e-4 / pitch + involute(pressure) - involute(std::acos(std::min(1.0, base / r)));
+  };
+  std::string points;
+  const auto add = [&](double r, double a) {
+    points += fmt::format("{:.17g},{:.17g},-0.01\n, ", r * std::cos(a), r * std::sin(a));
+  };
+  const double low = std::max(base, inner), high = pitch + module;
+  for (int k = 0; k < n; ++k) {
+    const double middle = angle + 2 * pi * k / n;
+    add(inner, middle - half(low));
+    for (int i = 0; i <= pieces; ++i) {
+      const double r = low + (high - low) * i / pieces;
+      add(r, middle - half(r));
+    }
+    for (int i = pieces; i >= 0; --i) {
+      const double r = low + (high - low) * i / pieces;
+      add(r, middle + half(r));
+    }
+    add(inner, middle + half(low));
+  }
+  const std::string first = points.substr(0, points.find('\n'));
+  return fmt::format(
+      "MATRIX/{0}, FULL=RORDER, ROWS={1}, COLUMNS=3, VALUES={2}{3}\nCURVE/{0}, CLOSED, MATRIX={0}, CURVE_POINTS, "
+      "ORDER=2\nGRAPHICS/{0}, EXTRUSION, CID={0}, CRM={4}, LENGTH=0.02\n",
+      id, n * (2 * pieces + 4) + 1, points, first, marker);
+}
+
+std::string wheels(int n) {
+  return fmt::format(
+             "bench\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, PART=1, QP={},0,0\n"
+             "PART/2, MASS=2, CM=20, IP=0.01,0.01,0.005\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+             "PART/3, MASS=2, CM=30, IP=0.02,0.02,0.02, QG={},0,0\nMARKER/30\nJOINT/2, REVOLUTE, I=30, J=2\n",
+             0.01 * n, 0.01 * n) +
+         teeth(n, 0, 2, 20) + teeth(n, 3.14159265358979324 * (1 + 1.0 / n), 3, 30) +
+         "CONTACT/1, IGEOM=2, JGEOM=3, IMPACT, STIFFNESS=1E8, EXPONENT=1.5, DAMPING=1E4, DMAX=1E-5\n"
+         "SFORCE/1, ROTATION, ACTION, I=20, J=1, FUNCTION=20-WZ(20)\n"
+         "SFORCE/2, ROTATION, ACTION, I=30, J=2, FUNCTION=STEP(TIME,0,0,0.01,5)\nEND\n";
+}
+
 struct Case {
   std::string text;
   double seconds;
@@ -211,9 +261,10 @@ int measure(const Case& c, double error) {
 
 int main(int argc, char** argv) {
   if (argc < 3)
-    return fmt::print(stderr,
-                      "usage: simulation chain|fall|spatial|vehicle|fourbars|contact|bowl|eggs N [TIME [INTERVALS "
-                      "[ERROR]]]\n"),
+    return fmt::print(
+               stderr,
+               "usage: simulation chain|fall|spatial|vehicle|fourbars|contact|bowl|eggs|wheels N [TIME [INTERVALS "
+               "[ERROR]]]\n"),
            3;
   const int n = std::atoi(argv[2]);
   const std::map<std::string, Case> cases = {{"chain", {chain(n, 0.3), 1, 100}},
@@ -223,7 +274,8 @@ int main(int argc, char** argv) {
                                              {"fourbars", {fourbars(n), 1, 100}},
                                              {"contact", {contact(n), 1, 100}},
                                              {"bowl", {bowl(n), 1, 100}},
-                                             {"eggs", {eggs(n), 1, 100}}};
+                                             {"eggs", {eggs(n), 1, 100}},
+                                             {"wheels", {wheels(n), 0.1, 100}}};
   const auto found = cases.find(argv[1]);
   if (found == cases.end()) return fmt::print(stderr, "no such model: {}\n", argv[1]), 3;
   Case c = found->second;

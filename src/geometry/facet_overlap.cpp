@@ -33,6 +33,15 @@ constexpr double roundings = 1e-9;  // of an area
 
 std::uint64_t pair_key(Index a, Index b) { return std::uint64_t{a} << 32 | b; }
 
+// By its corners, the same for all who ask.
+struct PlaneOfTriangle {
+  Vector origin, across;
+  int outwards;
+
+  // 1 where a point is in front of it, −1 behind it.
+  int side(const Vector& p) const { return dot(across, p - origin) > 0 ? outwards : -outwards; }
+};
+
 // One of the bodies in the axes of J, perhaps with the inside out.
 class Placed {
  public:
@@ -57,12 +66,10 @@ class Placed {
   std::size_t side_across(Index t, std::size_t side) const { return side_from(across(t, side), corner(t, side + 1)); }
   bool owns(Index t, std::size_t side) const { return t < across(t, side); }
 
-  // 1 where a point is in front of the plane of a triangle, −1 behind it.
-  int side_of_plane(Index t, const Vector& p) const {
+  PlaneOfTriangle plane(Index t) const {
     const auto& c = body_.triangles()[t].corner;
     const Vector o = at(c[0]);
-    const int sign = dot(cross(at(c[1]) - o, at(c[2]) - o), p - o) > 0 ? 1 : -1;
-    return turned_over_ ? -sign : sign;
+    return {o, cross(at(c[1]) - o, at(c[2]) - o), turned_over_ ? -1 : 1};
   }
   double height(Index t, const Vector& p) const { return dot(normal(t), p - at(corner(t, 0))); }
 
@@ -123,9 +130,14 @@ class Arrangement {
  public:
   Arrangement(const Placed& I, const Placed& J, const std::vector<std::pair<Index, Index>>& pairs) : I_(I), J_(J) {
     for (const auto& [a, b] : pairs) {
+      const auto corners_of_I = sides_of_plane(I, a, J, b), corners_of_J = sides_of_plane(J, b, I, a);
+      if (!crosses_plane(corners_of_I) || !crosses_plane(corners_of_J)) continue;
       for (std::size_t side = 0; side < 3; ++side) {
-        if (I.owns(a, side)) cross_edge(true, a, side, b);
-        if (J.owns(b, side)) cross_edge(false, b, side, a);
+        const std::size_t next = (side + 1) % 3;
+        if (I.owns(a, side) && corners_of_I[side] != corners_of_I[next])
+          cross_edge(true, a, side, b, corners_of_I[side] < 0);
+        if (J.owns(b, side) && corners_of_J[side] != corners_of_J[next])
+          cross_edge(false, b, side, a, corners_of_J[side] < 0);
       }
     }
     find_cuts();
@@ -152,12 +164,19 @@ class Arrangement {
 
   const Placed& body(bool of_I) const { return of_I ? I_ : J_; }
 
-  void cross_edge(bool of_I, Index t, std::size_t side, Index face) {
+  // Of the corners of a triangle, by the plane of one of the other body.
+  using Sides = std::array<int, 3>;
+  static Sides sides_of_plane(const Placed& A, Index t, const Placed& B, Index face) {
+    const PlaneOfTriangle plane = B.plane(face);
+    return {plane.side(A.at(A.corner(t, 0))), plane.side(A.at(A.corner(t, 1))), plane.side(A.at(A.corner(t, 2)))};
+  }
+  static bool crosses_plane(const Sides& s) { return s[0] != s[1] || s[1] != s[2]; }
+
+  // An edge whose ends are on both sides of the plane of a face.
+  void cross_edge(bool of_I, Index t, std::size_t side, Index face, bool leaves) {
     const Placed &A = body(of_I), &B = body(!of_I);
     const Index from = A.corner(t, side), to = A.corner(t, side + 1);
     const Vector u = A.at(from), v = A.at(to);
-    const int before = B.side_of_plane(face, u);
-    if (before == B.side_of_plane(face, v)) return;
     const Index b0 = B.corner(face, 0), b1 = B.corner(face, 1), b2 = B.corner(face, 2);
     const auto passing = [&](Index c, Index d) {
       return of_I ? passes(I_, from, to, J_, c, d) : passes(I_, c, d, J_, from, to);
@@ -166,7 +185,7 @@ class Arrangement {
     if (passing(b1, b2) != first || passing(b2, b0) != first) return;
     const double h = std::abs(B.height(face, u)), k = std::abs(B.height(face, v));
     const double along = h + k > 0 ? h / (h + k) : 0.5;
-    crossings_.push_back({of_I, t, side, face, along, u + (v - u) * along, before < 0});
+    crossings_.push_back({of_I, t, side, face, along, u + (v - u) * along, leaves});
     groups_.add();
     lumps_[of_I].insert(A.body().lump_of()[t]), lumps_[!of_I].insert(B.body().lump_of()[face]);
   }

@@ -18,38 +18,58 @@ constexpr double slack = 1e-11;  // of the size: by which boxes are larger than 
 
 Vector placed(const RelativeFrame<double>& f, const Vector& v) { return f.p + f.x * v.x + f.y * v.y + f.z * v.z; }
 
-// Boxes of I as they stand in the axes of J.
+// Boxes of I as they stand in the axes of J, about boxes of their own there.
 class PlacedBoxes {
  public:
-  PlacedBoxes(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J) : frame_(f) {
-    turn_.col(0) = to_eigen(f.x), turn_.col(1) = to_eigen(f.y), turn_.col(2) = to_eigen(f.z);
-    wider_ = Eigen::Vector3d::Constant(slack * (I.radius() + J.radius()));
+  PlacedBoxes(const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J)
+      : origin_(f.p), rows_{Vector{f.x.x, f.y.x, f.z.x}, {f.x.y, f.y.y, f.z.y}, {f.x.z, f.y.z, f.z.z}} {
+    for (std::size_t k = 0; k < 3; ++k)
+      sizes_[k] = {0.5 * std::abs(rows_[k].x), 0.5 * std::abs(rows_[k].y), 0.5 * std::abs(rows_[k].z)};
+    wider_ = slack * (I.radius() + J.radius());
   }
-  BoundingBox operator()(const BoundingBox& box) const {
-    const Eigen::Vector3d middle = to_eigen(frame_.p) + turn_ * box.center();
-    const Eigen::Vector3d half = turn_.cwiseAbs() * (0.5 * box.sizes()) + wider_;
-    return {middle - half, middle + half};
+  bool overlap(const BoundingBox& a, const BoundingBox& b) const {
+    return apart(a, b, 0) <= 0 && apart(a, b, 1) <= 0 && apart(a, b, 2) <= 0;
+  }
+  double square_apart(const BoundingBox& a, const BoundingBox& b) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double d = std::max(apart(a, b, k), 0.0);
+      sum += d * d;
+    }
+    return sum;
   }
 
  private:
-  const RelativeFrame<double>& frame_;
-  Eigen::Matrix3d turn_;
-  Eigen::Vector3d wider_;
+  // Along axis k, negative where they overlap.
+  double apart(const BoundingBox& a, const BoundingBox& b, std::size_t k) const {
+    const auto &low = a.min(), &high = a.max();
+    const Vector &row = rows_[k], &size = sizes_[k];
+    const auto n = static_cast<Eigen::Index>(k);
+    const double middle = origin_[k] +
+                          0.5 * (row.x * (low[0] + high[0]) + row.y * (low[1] + high[1]) + row.z * (low[2] + high[2])),
+                 half =
+                     wider_ + size.x * (high[0] - low[0]) + size.y * (high[1] - low[1]) + size.z * (high[2] - low[2]);
+    return std::max(middle - half - b.max()[n], b.min()[n] - middle - half);
+  }
+
+  Vector origin_;
+  std::array<Vector, 3> rows_, sizes_;
+  double wider_;
 };
 
 // What Eigen asks for the search of all pairs whose boxes overlap.
 struct Overlapping {
   const FacetBody::Tree &I, &J;
-  PlacedBoxes placed;
+  PlacedBoxes boxes;
   std::vector<std::pair<Index, Index>> found;
 
-  BoundingBox box_I(int item) const { return I.boxes[static_cast<std::size_t>(item)]; }
-  BoundingBox box_J(int item) const { return J.boxes[static_cast<std::size_t>(item)]; }
-  bool intersectVolumeVolume(const BoundingBox& a, const BoundingBox& b) const { return placed(a).intersects(b); }
-  bool intersectVolumeObject(const BoundingBox& a, int b) const { return placed(a).intersects(box_J(b)); }
-  bool intersectObjectVolume(int a, const BoundingBox& b) const { return placed(box_I(a)).intersects(b); }
+  const BoundingBox& box_I(int item) const { return I.boxes[static_cast<std::size_t>(item)]; }
+  const BoundingBox& box_J(int item) const { return J.boxes[static_cast<std::size_t>(item)]; }
+  bool intersectVolumeVolume(const BoundingBox& a, const BoundingBox& b) const { return boxes.overlap(a, b); }
+  bool intersectVolumeObject(const BoundingBox& a, int b) const { return boxes.overlap(a, box_J(b)); }
+  bool intersectObjectVolume(int a, const BoundingBox& b) const { return boxes.overlap(box_I(a), b); }
   bool intersectObjectObject(int a, int b) {
-    if (placed(box_I(a)).intersects(box_J(b))) found.emplace_back(static_cast<Index>(a), static_cast<Index>(b));
+    if (boxes.overlap(box_I(a), box_J(b))) found.emplace_back(static_cast<Index>(a), static_cast<Index>(b));
     return false;  // go on
   }
 };
@@ -117,14 +137,12 @@ struct Nearest {
   using Scalar = double;
   const FacetBody &of_I, &of_J;
   const RelativeFrame<double>& frame;
-  PlacedBoxes placed_box;
+  PlacedBoxes boxes;
   double least = std::numeric_limits<double>::infinity();
 
-  BoundingBox box_I(int item) const { return of_I.tree().boxes[static_cast<std::size_t>(item)]; }
-  BoundingBox box_J(int item) const { return of_J.tree().boxes[static_cast<std::size_t>(item)]; }
-  double minimumOnVolumeVolume(const BoundingBox& a, const BoundingBox& b) const {
-    return placed_box(a).squaredExteriorDistance(b);
-  }
+  const BoundingBox& box_I(int item) const { return of_I.tree().boxes[static_cast<std::size_t>(item)]; }
+  const BoundingBox& box_J(int item) const { return of_J.tree().boxes[static_cast<std::size_t>(item)]; }
+  double minimumOnVolumeVolume(const BoundingBox& a, const BoundingBox& b) const { return boxes.square_apart(a, b); }
   double minimumOnVolumeObject(const BoundingBox& a, int b) const { return minimumOnVolumeVolume(a, box_J(b)); }
   double minimumOnObjectVolume(int a, const BoundingBox& b) const { return minimumOnVolumeVolume(box_I(a), b); }
   double minimumOnObjectObject(int a, int b) {
