@@ -18,16 +18,10 @@ namespace {
 using Index = FacetBody::Index;
 constexpr Index none = std::numeric_limits<Index>::max();
 
-// Of the size: by which the one body is moved aside before it is looked where surfaces cross, so that edges which lie
-// in a facet or meet another edge, as those of parts drawn flush do, are beside it for all who ask.
+// Of the size: how far the one body is moved aside before it is looked where surfaces cross, so that edges which lie in
+// a facet or meet another edge, as those of parts drawn flush do, are beside it for all who ask.
 constexpr double aside = 1e-13;
-const Vector shift_aside{0.5412, -0.2987, 0.7861}, turn_aside{-0.3219, 0.8034, 0.5011};
-
-RelativeFrame<double> moved_aside(const RelativeFrame<double>& f, double size, double by) {
-  const Vector turn = by * turn_aside;
-  const auto turned = [&](const Vector& a) { return a + cross(turn, a); };
-  return {f.p + (by * size) * shift_aside, turned(f.x), turned(f.y), turned(f.z)};
-}
+const Vector shift_aside{0.5412, -0.2987, 0.7861};
 
 constexpr double roundings = 1e-9;  // of an area
 
@@ -425,7 +419,8 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
                                        {f.x.z, f.y.z, f.z.z}};
   const auto pairs = near_pairs(I, f, J);
   for (const double times : {1.0, -7.0, 53.0}) {
-    const RelativeFrame<double> beside = moved_aside(f, size, times * aside);
+    RelativeFrame<double> beside = f;
+    beside.p += (times * aside * size) * shift_aside;
     const Placed placed_I(I, beside, false), placed_J(J, own, cavity);
     Arrangement arrangement(placed_I, placed_J, pairs);
     found.definite = arrangement.consistent();

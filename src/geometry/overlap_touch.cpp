@@ -162,15 +162,30 @@ std::optional<Vec3<T>> normal_of(const Overlap& o, const PlacedFacets<T>& I, con
   return normalized(of_J.face * (of_I.sides / sides) - of_I.face * (of_J.sides / sides));
 }
 
+// To the planes of all facets that look along a line, each by what of it is seen along it: where the line passes
+// through a hole in them, as that in the middle of a ring does.
+template <class T>
+T mean_length(const PlacedFacets<T>& A, const std::vector<Overlap::Part>& parts, const Nudge<T>& nudge,
+              const Vec3<T>& from, const Vec3<T>& way) {
+  T sum(0.0), seen(0.0);
+  for (const Overlap::Part& p : parts) {
+    const Vec3<T> n = A.normal(p.triangle);
+    const T cosine = dot(n, way),
+            weight = step(cosine, side_below, face_above) * nudge.of(p.area, p.area_by_shift, p.area_by_turn);
+    sum += weight * dot(n, A.corner(p.triangle, 0) - from), seen += weight * cosine;
+  }
+  return value_of(seen) > 0 ? sum / seen : T(0.0);
+}
+
 template <class T>
 Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J) {
   // Of a touch alone roundings are left.
-  if (o.volume <= just_touching * (I.body.radius() + J.body.radius()) * surface_of(o.of_J)) return {};
+  if (o.whole && o.volume <= just_touching * (I.body.radius() + J.body.radius()) * surface_of(o.of_J)) return {};
   const Nudge<T> nudge(I.frame, o.origin);
   const T volume = nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn);
   const Vec3<T> centroid = nudge.of(o.moment, o.moment_by_shift, o.moment_by_turn) / volume + o.origin;
   Touch<T> t;
-  t.gap = T(-std::cbrt(o.volume));
+  t.gap = T(-std::cbrt(std::abs(o.volume)));
   t.normal = {T(0.0), T(0.0), T(1.0)}, t.point = centroid;
   t.defined = false;
   const auto found = normal_of(o, I, J, nudge);
@@ -179,11 +194,16 @@ Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets
   const PlacedFacets<double> plain_I{I.body, plain(I.frame), I.sign}, plain_J{J.body, plain(J.frame), J.sign};
   const Vector from = value_of(centroid), way = value_of(normal);
   const auto up = exit_of(plain_J, o.of_J, from, way), down = exit_of(plain_I, o.of_I, from, -way);
-  if (!up || !down || !(up->length + down->length > 0)) return t;
-  const T above = J.length_to(up->triangle, centroid, normal), below = I.length_to(down->triangle, centroid, -normal);
+  T above, below;
+  if (up && down) {
+    above = J.length_to(up->triangle, centroid, normal), below = I.length_to(down->triangle, centroid, -normal);
+    t.seam = std::min(up->seam, down->seam);
+  } else {
+    above = mean_length(J, o.of_J, nudge, centroid, normal), below = mean_length(I, o.of_I, nudge, centroid, -normal);
+  }
+  if (!(value_of(above) + value_of(below) > 0)) return t;
   t.gap = -(above + below);
   t.normal = normal, t.point = centroid + normal * ((above - below) * 0.5);
-  t.seam = std::min(up->seam, down->seam);
   t.defined = true;
   return t;
 }

@@ -14,6 +14,7 @@
 #include "geometry/moved_frame_test_support.h"
 #include "geometry/polygon.h"
 #include "geometry/prism.h"
+#include "geometry/revolution.h"
 
 namespace dynalin::overlap_touch_test {
 namespace {
@@ -185,6 +186,8 @@ TEST_F(overlap_touch, a_table_stands_on_each_of_its_legs) {
   std::vector<Touch<double>> open(most_overlaps);
   touch_overlaps<double>(feet, at({0.1, -0.2, 0.02}), floor, false, open);
   EXPECT_NEAR(open.front().gap, 0.02, 1e-15);
+  // Just on it they neither push nor are in doubt.
+  EXPECT_EQ(touches(feet, at({0.1, -0.2, 0}), floor).size(), 0u);
 }
 
 TEST_F(overlap_touch, of_a_corner_an_edge_and_two_crossing_edges_is_as_deep_as_they_are) {
@@ -355,6 +358,74 @@ TEST_F(overlap_touch, in_a_cavity_is_that_with_its_walls) {
   EXPECT_GT(seen, 20);
 }
 
+// The middle of what a tube on its end has in common with the floor is in its hole: it is as deep there as its plane
+// is.
+TEST_F(overlap_touch, of_a_tube_on_its_end_is_in_the_middle_of_it) {
+  const std::array<Meridian, 4> profile{{{0.3, 0}, {0.4, 0}, {0.4, 0.5}, {0.3, 0.5}}};
+  const FacetBody tube(revolved(profile, true, {.segments = 12})), floor = facets_of_box({-2, -2, -0.5}, {2, 2, 0});
+  constexpr double tilt = 0.01;
+  const RelativeFrame<double> tilted{
+      {0.2, 0, -0.01}, {std::cos(tilt), 0, -std::sin(tilt)}, {0, 1, 0}, {std::sin(tilt), 0, std::cos(tilt)}};
+  const auto list = seeded_touches(tube, tilted, floor);
+  ASSERT_EQ(list.size(), 1u);
+  const Touch<Seeded>& t = list.front();
+  EXPECT_TRUE(t.defined);
+  expect_near(value_of(t.normal), {0, 0, 1}, 1e-12);
+  // Of a wedge the centroid is off by the tilt times the second moment of area by the volume.
+  EXPECT_GT(t.point.x.value, 0.2);
+  EXPECT_NEAR(-t.gap.value, 0.01 + std::tan(tilt) * (t.point.x.value - 0.2), 1e-7);
+  constexpr double h = 1e-6;
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto plus = touches(tube, moved(tilted, n, h), floor), minus = touches(tube, moved(tilted, n, -h), floor);
+    EXPECT_NEAR(t.gap.partial[n], (plus.front().gap - minus.front().gap) / (2 * h), 1e-6) << n;
+    EXPECT_NEAR(t.point.x.partial[n], (plus.front().point.x - minus.front().point.x) / (2 * h), 1e-4) << n;
+  }
+}
+
+// On an edge the depth bends where the line through the centroid passes over it, whichever body has it.
+TEST_F(overlap_touch, of_an_edge_on_a_face_says_how_near_it_is) {
+  const FacetBody prism_on_edge = swept({{0, 0}, {0.5, 0.5}, {0.5, 1}, {-0.5, 1}, {-0.5, 0.5}}, -0.3, 0.3),
+                  slab = facets_of_box({-2, -1, -2}, {2, 0, 2});
+  const auto f = at({0.1, -0.01, 0.2});
+  for (const auto& list : {touches(prism_on_edge, f, slab), touches(slab, from_other(f), prism_on_edge)}) {
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_NEAR(list[0].gap, -0.01, 1e-12);
+    EXPECT_LT(list[0].seam, 1e-11);
+  }
+  EXPECT_GT(touches(table(), at({0, 0, -0.01}), facets_of_box({-2, -2, -1}, {2, 2, 0}))[0].seam, 0.05);
+}
+
+// Turned by quarters and shifted by eighths of their sizes, so that edges meet edges and faces lie in faces.
+TEST_F(overlap_touch, of_bodies_drawn_on_one_grid_is_definite) {
+  const FacetBody a = swept({{0, 0}, {1, 0}, {1, 0.25}, {0.5, 0.25}, {0.5, 1}, {0, 1}}, -0.25, 0.25),
+                  b = swept({{0, 0}, {0.25, 0}, {0.25, 0.5}, {0.75, 0.5}, {0.75, 0}, {1, 0}, {1, 0.75}, {0, 0.75}}, 0,
+                            0.5);
+  const auto draw = [&](int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); };
+  int seen = 0;
+  for (int k = 0; k < 3000; ++k) {
+    Matrix3 R = Matrix3::identity();
+    for (int t = 0; t < 2; ++t)
+      R = rotation_exponential(unit_vectors[static_cast<std::size_t>(draw(3))] * (draw(4) * std::numbers::pi / 2)) * R;
+    RelativeFrame<double> f{{0.125 * (draw(17) - 8), 0.125 * (draw(17) - 8), 0.125 * (draw(17) - 8)}, R.x, R.y, R.z};
+    const auto volume = [&] {
+      const Overlaps found = find_overlaps(a, f, b, false);
+      EXPECT_TRUE(found.definite);
+      double sum = 0;
+      for (const Overlap& o : found.volumes) {
+        EXPECT_GT(o.volume, -1e-12);
+        EXPECT_TRUE(o.whole);
+        sum += o.volume;
+      }
+      return sum;
+    };
+    const double here = volume();
+    f.p += Vector{1.3e-9, -0.7e-9, 0.9e-9};
+    EXPECT_NEAR(volume(), here, 1e-8);
+    seen += here > 1e-3;
+  }
+  EXPECT_GT(seen, 300);
+}
+
 TEST_F(overlap_touch, has_no_direction_all_around_and_wholly_inside) {
   const FacetBody hollow = angle(), small = facets_of_box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0.02});
   const auto inside = touches(small, at({0.2, 0.2, 0}), hollow);
@@ -365,6 +436,12 @@ TEST_F(overlap_touch, has_no_direction_all_around_and_wholly_inside) {
   const auto through = touches(bar, at({0.2, 0.15, 0}), hollow);
   ASSERT_EQ(through.size(), 1u);
   EXPECT_FALSE(through[0].defined);
+  // A face that passes through a void in the other body has a hole in one of its triangles.
+  Mesh shell = box_at({-1, -1, -1}, {1, 1, 1}), hole = box_at({0.25, -0.05, -0.1}, {0.35, 0.05, 0.1});
+  turn_over(hole);
+  append(shell, hole);
+  const auto list = touches(facets_of_box({-0.5, -0.5, 0}, {0.5, 0.5, 3}), at({0, 0, 0}), FacetBody(shell));
+  EXPECT_TRUE(std::ranges::any_of(list, [](const auto& t) { return !t.defined; }));
 }
 
 }  // namespace dynalin::overlap_touch_test
