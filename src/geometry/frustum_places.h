@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "geometry/flat_body.h"
 #include "geometry/looking_side.h"
 #include "geometry/low_on_circle.h"
+#include "geometry/shares_at_rim.h"
 
 namespace dynalin::solid {
 
@@ -66,11 +66,11 @@ class PlacesAbout {
       else
         put_none();
     }
-    std::vector<Passes> over_rim(face.edges.size());
+    std::vector<PassesOverRim<T>> over_rim(face.edges.size());
     for (std::size_t n = 0; n < over_rim.size(); ++n)
       over_rim[n] = passes_over(I, end, face.edges[n], ruled_of(face.edges[n], face.normal()), true);
-    if (end) share_at_rim(I, *end, face, over_rim);
-    for (Passes& p : over_rim) put_but(p[0], last), put_but(p[1], last);
+    if (end) SharesAtRim<T>(I, *end, tolerance_).give(face, over_rim);
+    for (PassesOverRim<T>& p : over_rim) put_but(p[0], last), put_but(p[1], last);
     for (const bool upper : {false, true}) {
       std::optional<Touch<T>> t = value_of(ends) > 0 ? across(edge, I.rim(upper), true) : std::nullopt;
       put_end(t, ends, normals_of_edge(J, face, beside));
@@ -204,12 +204,10 @@ class PlacesAbout {
 
   // --- and those of an edge or a line over the rim of an end, but not the one there is already
 
-  // Where it comes over the end and where it leaves it, along its direction.
-  using Passes = std::array<std::optional<Touch<T>>, 2>;
   template <class S>
-  Passes passes_over(const PlacedFrustum<T>& f, std::optional<bool> end, const Edge<S>& line, const Ruled<T>& r,
-                     bool out_of_J) const {
-    Passes found;
+  PassesOverRim<T> passes_over(const PlacedFrustum<T>& f, std::optional<bool> end, const Edge<S>& line,
+                               const Ruled<T>& r, bool out_of_J) const {
+    PassesOverRim<T> found;
     if (!end) return found;
     const auto at = passes({value_of(line.from), value_of(line.along), line.length}, plain(f).rim(*end));
     for (std::size_t k = 0; k < 2; ++k) {
@@ -234,85 +232,6 @@ class PlacesAbout {
                   bool out_of_J, const std::optional<Touch<T>>& already) {
     for (const std::optional<Touch<T>>& t : passes_over(f, end, line, r, out_of_J))
       put(is_at(t, already) ? std::nullopt : t);
-  }
-
-  // The angle by which the outline of what both have in common turns where it passes from an edge to the rim or back,
-  // in right angles. `sense`: 1 where the edge goes around its face as the rim goes around its axis, else −1.
-  T turn_at_rim(const Circle<T>& rim, const Vec3<T>& place, const Vec3<T>& edge, double sense) const {
-    using std::abs, std::atan2, std::sqrt;
-    const Vec3<T> from = place - rim.centre;
-    const T x = dot(rim.first, from), y = dot(rim.second, from), u = dot(rim.first, edge), v = dot(rim.second, edge);
-    const T outward = x * u + y * v, along = (x * v - y * u) * sense;
-    return atan2(value_of(outward) < 0 ? T(-outward) : outward, along) * (2 / std::numbers::pi);
-  }
-  // Where an edge passes over the rim it has the force of a corner times the angle a by which their outline turns
-  // there, in right angles. So two edges whose corner leaves over the rim share what that had, one that only just
-  // reaches over the rim has none, and no force jumps where an outline gains a corner or loses one. A place that is
-  // alone, with those that it would share with less deep or not there, has the more of a whole force:
-  //
-  //     a + (1 − a)(1 − r)²(1 + 2r),      r: the ratio of depths, theirs to its own
-  // Where the corner that is beyond the rim turns by q instead of one right angle, all that both of its edges have
-  // goes over from a to a/q as it comes to the rim, where it has a whole force of its own: with x and y, what their
-  // angles are of q, by x y / (x y + 1 − x − y).
-  template <class AnyFace>
-  void share_at_rim(const PlacedFrustum<T>& f, bool upper, const AnyFace& face, std::vector<Passes>& over_rim) const {
-    const Circle<T> rim = f.rim(upper);
-    const auto there = [&](const std::optional<Touch<T>>& t) {
-      return t && t->inside >= -tolerance_ && value_of(t->gap) < 0;
-    };
-    const Vector around = cross(value_of(face.edges[0].along), value_of(face.edges[1].along));
-    const double sense = dot(around, cross(value_of(rim.first), value_of(rim.second))) < 0 ? -1 : 1;
-    const std::size_t count = over_rim.size();
-    std::vector<std::array<T, 2>> turns(count), shares(count);
-    for (std::size_t n = 0; n < count; ++n) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        turns[n][k] =
-            there(over_rim[n][k]) ? turn_at_rim(rim, over_rim[n][k]->point, face.edges[n].along, sense) : T(0.0);
-      }
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t next = (n + 1) % count;
-      if (there(over_rim[n][1]) && there(over_rim[next][0]))
-        share_corner(value_of(face.edges[n].along), value_of(face.edges[next].along), turns[n][1], turns[next][0]);
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        if (!there(over_rim[n][k])) continue;
-        const Touch<T>& own = *over_rim[n][k];
-        const T& a = turns[n][k];
-        // The other end of what the edge has over the end: another place of these, or its corner.
-        const std::optional<Touch<T>>& across = over_rim[n][1 - k];
-        const Vec3<T>& corner = face.corners[k == 1 ? n : (n + 1) % count];
-        const T at_other_end = across && across->inside >= -tolerance_
-                                   ? across->gap
-                                   : lowest(circle_at(corner), f.centre(upper), f.end_normal(upper), false).first.gap;
-        T ratio = at_other_end / own.gap;
-        // The edge that comes back from beyond the corner, the less of it the less that is over the end.
-        const std::size_t next = k == 1 ? (n + 1) % count : (n + count - 1) % count;
-        if (there(over_rim[next][1 - k]) && value_of(a) < 1) {
-          const T part = turns[next][1 - k] / (1.0 - a), depth = over_rim[next][1 - k]->gap / own.gap;
-          const T of_next = value_of(part) < 1 ? T(depth * part) : depth;
-          if (value_of(of_next) > value_of(ratio)) ratio = of_next;
-        }
-        const T alone = value_of(ratio) <= 0  ? T(1.0)
-                        : value_of(ratio) < 1 ? T((1.0 - ratio) * (1.0 - ratio) * (1.0 + 2.0 * ratio))
-                                              : T(0.0);
-        shares[n][k] = a + (1.0 - a) * alone;
-      }
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      for (std::size_t k = 0; k < 2; ++k)
-        if (there(over_rim[n][k])) over_rim[n][k]->weight *= shares[n][k];
-    }
-  }
-
-  static void share_corner(const Vector& before, const Vector& after, T& a, T& b) {
-    const double q = std::atan2(norm(cross(before, after)), dot(before, after)) * (2 / std::numbers::pi);
-    if (std::abs(q - 1) <= coincidence) return;
-    const T product = a * b * (1 / (q * q)), rest = 1.0 - (a + b) * (1 / q);
-    const T near = value_of(rest) > 0 ? T(product / (product + rest)) : T(1.0);
-    const T factor = 1.0 + near * (1 / q - 1);
-    a *= factor, b *= factor;
   }
 
   // --- what looks the same way beside a face of a convex body: its corners in an end, its edges across the mantle
