@@ -29,11 +29,7 @@ RunState::RunState(const SessionOptions& of_user, const Job& to_do, std::ostream
 
 void RunState::count(const IntegrationStatistics& s) {
   last_simulation = s;
-  IntegrationStatistics& all = all_simulations;
-  all.steps += s.steps, all.evaluations += s.evaluations, all.jacobians += s.jacobians;
-  all.iterations += s.iterations, all.failed_error_tests += s.failed_error_tests;
-  all.failed_iterations += s.failed_iterations, all.restarts += s.restarts;
-  all.step_size = s.step_size, all.order = s.order;
+  all_simulations = followed_by(all_simulations, s);
 }
 
 void RunState::print(const std::string& text) {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/dae_integrator.h"
+#include "simulation/dae_problem.h"
 #include "simulation/events.h"
 #include "simulation/motion_unknowns.h"
 

@@ -21,6 +21,15 @@ struct SimulationStep {
   std::string_view text{};  // of SENSORs, for the message file: whole lines
 };
 
+// What two integrations have cost, one after the other, and how the later one goes on.
+inline IntegrationStatistics followed_by(IntegrationStatistics all, const IntegrationStatistics& later) {
+  all.steps += later.steps, all.evaluations += later.evaluations, all.jacobians += later.jacobians;
+  all.iterations += later.iterations, all.failed_error_tests += later.failed_error_tests;
+  all.failed_iterations += later.failed_iterations, all.restarts += later.restarts;
+  all.step_size = later.step_size, all.order = later.order;
+  return all;
+}
+
 // What expressions see of it from here on.
 inline IntegrationProgress progress_of(const IntegrationStatistics& s) {
   return {.processor_time = static_cast<double>(std::clock()) / CLOCKS_PER_SEC,
