@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -11,10 +10,13 @@
 #include "simulation/consistent_points.h"
 #include "simulation/event_density.h"
 #include "simulation/event_sides.h"
+#include "simulation/integration_bounds.h"
+#include "simulation/known_event.h"
 #include "simulation/motion_equations.h"
 #include "simulation/moving_rows.h"
 #include "simulation/point_refinement.h"
 #include "simulation/pose_change.h"
+#include "simulation/stopped_integration.h"
 
 namespace dynalin {
 
@@ -29,12 +31,7 @@ constexpr double hardly_any_way = 1e-4;  // of the whole time
 constexpr double just_beyond = 1e-6;     // of the whole time
 constexpr double least_limit_of_moves =
     1e-8;  // of points that are made consistent, in lengths of the model and radians
-constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding leaves no more exact
 constexpr int steps_held_by_rounding = 500;
-// Of the range of a table, what steps may pass over: ERROR within these.
-constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
-// From an event to its sides, in roundings; what is less is no step.
-constexpr double way_around = 8, no_step = 1e3;
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
@@ -47,21 +44,8 @@ class Dynamics {
         watch_(watch),
         findings_(findings),
         points_(system, findings),
-        events_(system) {
-    const double error = error_ = settings.error.value_or(default_integration_error);
-    tolerance_.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
-    tolerance_.duration = times.end() - times.start();
-    tolerance_.passed_over = std::clamp(error, least_passed_over, most_passed_over);
-    bounds_.loosest = std::max(1.0, largest_part_of_error * error / tolerance_.relative);
-    bounds_.first = settings.first_step;
-    bounds_.least = settings.least_step;
-    bounds_.largest_order = static_cast<int>(std::clamp<std::int64_t>(settings.largest_order.value_or(5), 1, 5));
-    bounds_.iterations =
-        static_cast<int>(std::clamp<std::int64_t>(settings.iteration_limit.value_or(bounds_.iterations), 1, 100));
-    // Unless it says so, the integration does not pass over a whole interval of output.
-    bounds_.largest = settings.largest_step;
-    if (!bounds_.largest && !settings.interpolate.value_or(false)) bounds_.largest = times.step();
-  }
+        events_(system),
+        bounds_(settings, times) {}
 
   Result<AdvancedPoint> run(OperatingPoint from) {
     from.mode = AnalysisMode::dynamics;
@@ -80,8 +64,8 @@ class Dynamics {
     if (auto begun = begin(at_start.step_size); !begun) return tl::unexpected(begun.error());
     while (true) {
       limit_steps();
-      const KnownEvent known = known_event();
-      if (known.before - point_.time < no_step * known.rounding()) {
+      const KnownEvent known = KnownEvent::after(system_, point_, times_.end());
+      if (known.follows_at_once(point_.time)) {
         auto action = pass_known_event(known);
         if (!action) return tl::unexpected(action.error());
         if (action->ends()) return AdvancedPoint{std::move(point_), end_of(*action)};
@@ -120,7 +104,7 @@ class Dynamics {
   // By more than the errors of a run. At a singular configuration constraints say nothing of motions that they hold
   // everywhere else: there the integrator knows better.
   bool moved_far(const OperatingPoint& from, const OperatingPoint& to) const {
-    const double limit = std::max(error_, least_limit_of_moves);
+    const double limit = std::max(bounds_.error, least_limit_of_moves);
     Eigen::VectorXd faster(static_cast<Eigen::Index>(system_.coordinates()));
     for (std::size_t k = 0; k < to.velocity.size(); ++k)
       faster(static_cast<Eigen::Index>(k)) = to.velocity[k] - from.velocity[k];
@@ -128,7 +112,7 @@ class Dynamics {
            length_of(system_, faster) > limit * equations_->fastest();
   }
 
-  double left_out_limit() const { return std::max(least_left_out, left_out_errors * tolerance_.relative); }
+  double left_out_limit() const { return std::max(least_left_out, left_out_errors * bounds_.tolerance.relative); }
 
   // Where there is nothing to integrate.
   Result<AdvancedPoint> pass_time() {
@@ -146,8 +130,8 @@ class Dynamics {
       integrator_.reset();
       counted_before_ = statistics_;
       refinement_ = std::make_unique<PointRefinement>(system_, active);
-      equations_ = std::make_unique<MotionEquations>(system_, events_, point_, std::move(active), tolerance_);
-      integrator_ = std::make_unique<DaeIntegrator>(*equations_, bounds_);
+      equations_ = std::make_unique<MotionEquations>(system_, events_, point_, std::move(active), bounds_.tolerance);
+      integrator_ = std::make_unique<DaeIntegrator>(*equations_, bounds_.steps);
       longest_ = 0;
       y_.resize(equations_->size()), yp_.resize(equations_->size());
     } else {
@@ -178,8 +162,9 @@ class Dynamics {
 
   // After a step that failed: from the last point that was accepted, with the constraints looked at anew.
   Result<void> begin_again() {
-    Failure why = failure();
-    if (point_.time - first_failure_ > hardly_any_way * tolerance_.duration) {
+    const double a_little = just_beyond * bounds_.tolerance.duration;
+    Failure why = StoppedIntegration{system_, point_, *integrator_, *equations_, a_little}.failure();
+    if (point_.time - first_failure_ > hardly_any_way * bounds_.tolerance.duration) {
       first_failure_ = point_.time;
       failures_ = 0;
     }
@@ -187,25 +172,6 @@ class Dynamics {
       if (auto begun = begin_at_consistent()) return {};
     }
     return tl::unexpected(std::move(why));
-  }
-
-  // Why the last step failed, as far as it can be told: what the integrator says, what has no value, and whether the
-  // constraints can be met at all a little later.
-  Failure failure() const {
-    Failure f{
-        "dynamics", fmt::format("at time {:.9g}: {}", point_.time, integrator_->reason()), {}, "stopped-integration"};
-    const std::string hardest = equations_->unknowns().text(integrator_->hardest_unknown());
-    if (!hardest.empty()) f.details.push_back("what stood in the way most is " + hardest);
-    // At a point that was tried, or at the last one itself, which says the same.
-    std::string outside = equations_->undefined();
-    if (outside.empty()) outside = system_.domain_violation(system_.motion(point_));
-    if (!outside.empty()) f.details.push_back(std::move(outside));
-    OperatingPoint later = point_;
-    later.time += just_beyond * tolerance_.duration;
-    Findings unused;
-    if (const auto met = assemble_position(system_, std::move(later), unused); !met)
-      f.details.push_back("a little later " + met.error().message);
-    return f;
   }
 
   // The integrator's step becomes the point. At an event values are not those of either side yet.
@@ -275,18 +241,7 @@ class Dynamics {
     return action.halts ? SimulationEnd::halted : SimulationEnd::returned;
   }
 
-  // An event whose instant is known: no step goes over it, and the integration begins anew behind it.
-  struct KnownEvent {
-    double before, behind;
-    double rounding() const { return std::numeric_limits<double>::epsilon() * std::abs(behind); }
-  };
-  KnownEvent known_event() const {
-    const double at = system_.next_event(point_);
-    const double way = way_around * std::numeric_limits<double>::epsilon() * std::abs(at);
-    if (at + way < times_.end()) return {at - way, at + way};
-    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  }
-  // From right before it, where the point is.
+  // From right before an event, where the point is.
   Result<EventAction> pass_known_event(const KnownEvent& known) {
     std::vector<double> before(events_.size()), behind(events_.size());
     std::vector<int> crossed(events_.size());
@@ -319,7 +274,8 @@ class Dynamics {
 
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
   Result<EventAction> pass_event(std::span<const int> crossed, bool restart = false) {
-    if (auto passed = density_.pass(point_.time, tolerance_.duration); !passed) return tl::unexpected(passed.error());
+    if (auto passed = density_.pass(point_.time, bounds_.tolerance.duration); !passed)
+      return tl::unexpected(passed.error());
     EventAction action = events_.at(crossed, point_);
     action.restart = action.restart || restart;
     bool anew = false;
@@ -367,29 +323,23 @@ class Dynamics {
   // From the point on, to the same end.
   void change_outputs(double step) {
     if (point_.time >= times_.end()) return;
-    if (bounds_.largest == times_.step()) bounds_.largest = step;
+    if (bounds_.steps.largest == times_.step()) bounds_.steps.largest = step;
     times_ = OutputTimes(point_.time, times_.end(), step);
     next_ = 1;
   }
 
   void limit_steps() {
     // What is far shorter than the whole converges without bounding steps (delay_history.h).
-    const double resolved = std::max(system_.longest_step(equations_->motion()), shortest_bound * tolerance_.duration);
-    const double longest = std::min(bounds_.largest.value_or(tolerance_.duration), resolved);
+    const double resolved =
+        std::max(system_.longest_step(equations_->motion()), shortest_bound * bounds_.tolerance.duration);
+    const double longest = std::min(bounds_.steps.largest.value_or(bounds_.tolerance.duration), resolved);
     if (longest == longest_) return;
     longest_ = longest;
     integrator_->limit_steps(longest);
   }
 
   void count() {
-    const IntegrationStatistics now = integrator_->statistics();
-    statistics_ = counted_before_;
-    statistics_.steps += now.steps, statistics_.evaluations += now.evaluations;
-    statistics_.jacobians += now.jacobians, statistics_.iterations += now.iterations;
-    statistics_.failed_error_tests += now.failed_error_tests;
-    statistics_.failed_iterations += now.failed_iterations;
-    statistics_.restarts += now.restarts;
-    statistics_.step_size = now.step_size, statistics_.order = now.order;
+    statistics_ = followed_by(counted_before_, integrator_->statistics());
     point_.progress = progress_of(statistics_);
   }
 
@@ -400,9 +350,7 @@ class Dynamics {
   Findings& findings_;
   ConsistentPoints points_;
   Events events_;
-  double error_;  // ERROR
-  ErrorTolerance tolerance_;
-  StepBounds bounds_;
+  IntegrationBounds bounds_;
   double longest_ = 0;  // step, as the integrator has it
   std::unique_ptr<MotionEquations> equations_;
   std::unique_ptr<DaeIntegrator> integrator_;

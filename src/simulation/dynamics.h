@@ -10,11 +10,6 @@
 
 namespace dynalin {
 
-// What the error of a step may be. A step of order 5 and length h has an error like h⁶, a run of some periods one like
-// h⁵: for that to be in proportion to ERROR, and below it, steps are held to this part of ERROR^1.2.
-inline constexpr double part_of_error = 5e-4, power_of_error = 1.2;
-inline constexpr double default_integration_error = 1e-3;
-
 struct AdvancedPoint {
   OperatingPoint point;
   SimulationEnd end = SimulationEnd::reached;

@@ -17,17 +17,11 @@
 #include <vector>
 
 #include "simulation/dae_problem.h"
+#include "simulation/error_tolerance.h"
 #include "simulation/events.h"
 #include "simulation/motion_unknowns.h"
 
 namespace dynalin {
-
-// What errors are allowed: the part of a coordinate's length, of a velocity, of a state.
-struct ErrorTolerance {
-  double relative = 1e-6;
-  double duration = 1;        // of the simulation [time]: a velocity counts by the way it makes
-  double passed_over = 1e-3;  // part of the range of a table that steps need not see
-};
 
 class MotionEquations final : public DaeProblem {
  public:
