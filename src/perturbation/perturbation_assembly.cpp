@@ -1,10 +1,13 @@
 // How the perturbation equations come about: from constraint rows, gradients of chosen coordinates and partials.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
+#include "perturbation/massless_balances.h"
 #include "perturbation/perturbation.h"
 #include "perturbation/perturbed_point.h"
 #include "perturbation/roundoff_scales.h"
@@ -81,7 +84,11 @@ class PerturbationEquations::Assembly {
     take_partials();
     take_inputs();
     take_rates_of_states();
-    if (massless_) take_balances();
+    if (massless_) {
+      MasslessBalances balances(system_, *massless_, choice_, inputs_, balances_);
+      balances.take();
+      open_rows_ = balances.open_rows();
+    }
   }
 
   // The diagonal of F.
@@ -132,82 +139,6 @@ class PerturbationEquations::Assembly {
     return {};
   }
 
-  // What takes the vacant places: at rest the balances that the augmented equations hold, differentiated,
-  //     Yᵀ(R_q δq′ + R_q′ δq″ + R_z δz′) = 0,
-  // for rates of condensed freedoms and accelerations of damped ones, and once more for accelerations of condensed
-  // ones; derivatives of inputs are left out, and of z′ and q″ in the last. Where the model moves nothing is known but
-  // that the states do not ask for it. Such rows are open.
-  void take_balances() {
-    const MasslessLimit& limit = massless_->limit;
-    const Eigen::Index condensed = limit.condensed(), damped = limit.damped();
-    const auto row_of_rate = [&](Eigen::Index k) { return n_ - static_cast<std::int32_t>(condensed - k); };
-    const auto row_of_condensed = [&](Eigen::Index k) {
-      return 2 * n_ - static_cast<std::int32_t>(condensed + damped - k);
-    };
-    const auto row_of_damped = [&](Eigen::Index k) { return 2 * n_ - static_cast<std::int32_t>(damped - k); };
-    if (!massless_->at_rest) {
-      const auto hold = [&](std::int32_t row, Eigen::Index direction) {
-        balances_.add(row, 2 * n_ + limit.directions.coordinate[static_cast<std::size_t>(direction)], 1.0, 1.0, 0.0);
-        open_rows_.push_back(row);
-      };
-      Eigen::Index lost = 0;
-      for (std::size_t k = 0; k < choice_.gradient.size(); ++k) {
-        if (choice_.has_position[k]) continue;
-        for (const StateChoice::Entry& e : choice_.gradient[k])
-          balances_.add(row_of_rate(lost), n_ + e.column, e.c.g, std::abs(e.c.g), 0.0);
-        open_rows_.push_back(row_of_rate(lost++));
-      }
-      for (Eigen::Index k = 0; k < condensed; ++k)
-        hold(row_of_condensed(k), limit.damping.other_column[static_cast<std::size_t>(k)]);
-      for (Eigen::Index k = 0; k < damped; ++k)
-        hold(row_of_damped(k), limit.damping.pivot_column[static_cast<std::size_t>(k)]);
-      return;
-    }
-    const auto place_row = [&](std::int32_t row, std::int32_t column, const Eigen::RowVectorXd& value,
-                               const Eigen::RowVectorXd& size) {
-      for (Eigen::Index c = 0; c < value.size(); ++c) {
-        const bool vanishes = std::abs(value(c)) <= cancelled_units * std::numeric_limits<double>::epsilon() * size(c);
-        if (size(c) > 0) {
-          balances_.add(row, column + static_cast<std::int32_t>(c), vanishes ? 0.0 : value(c), size(c),
-                        RoundoffScales::along_axes * size(c));
-        }
-      }
-    };
-    // An input in the balance would come with its derivative.
-    const auto driven = [&](const Eigen::VectorXd& weights) {
-      const Eigen::VectorXd y = limit.left * weights;
-      return std::any_of(inputs_.begin(), inputs_.end(),
-                         [&](std::int32_t u) { return y(augmented_.algebraic(u)) != 0.0; });
-    };
-    const auto once = [&](std::int32_t row, const Eigen::VectorXd& weights) {
-      const Eigen::RowVectorXd w = weights.transpose(), size = w.cwiseAbs();
-      place_row(row, n_, w * limit.on_positions, size * limit.on_positions_size);
-      place_row(row, 2 * n_, w * limit.on_rates, size * limit.on_rates_size);
-      const Eigen::RowVectorXd on_states = w * limit.on_states, state_size = size * limit.on_states_size;
-      for (const std::int32_t z : choice_.differential)
-        place_row(row, 2 * n_ + augmented_.state(z), on_states.segment(z, 1), state_size.segment(z, 1));
-      if (driven(weights)) open_rows_.push_back(row);
-    };
-    for (Eigen::Index k = 0; k < condensed; ++k) {
-      const Eigen::VectorXd weights = limit.damping.left_null.col(k);
-      once(row_of_rate(k), weights);
-      const Eigen::RowVectorXd w = weights.transpose();
-      place_row(row_of_condensed(k), 2 * n_, w * limit.on_positions, w.cwiseAbs() * limit.on_positions_size);
-      const auto vanish = [&](const Eigen::MatrixXd& of, const Eigen::MatrixXd& size) {
-        return ((w * of).array().abs() <=
-                cancelled_units * std::numeric_limits<double>::epsilon() * (w.cwiseAbs() * size).array())
-            .all();
-      };
-      const bool plain = vanish(limit.on_rates, limit.on_rates_size) && vanish(limit.on_states, limit.on_states_size) &&
-                         !driven(weights);
-      if (!plain) open_rows_.push_back(row_of_condensed(k));
-    }
-    for (Eigen::Index k = 0; k < damped; ++k) {
-      once(row_of_damped(k),
-           Eigen::VectorXd::Unit(limit.count(), limit.damping.pivot_row[static_cast<std::size_t>(k)]));
-    }
-  }
-
   Result<void> factor_whole() {
     std::vector<Triplet> entries;
     for_each_entry(p_.products_, [&](std::int32_t r, std::int32_t c, double v) {
@@ -225,8 +156,6 @@ class PerturbationEquations::Assembly {
                   "massless-motion"});
     }
     p_.whole_ = std::move(lu);
-    std::sort(open_rows_.begin(), open_rows_.end());
-    open_rows_.erase(std::unique(open_rows_.begin(), open_rows_.end()), open_rows_.end());
     p_.open_ = Eigen::MatrixXd::Zero(first_state_, static_cast<Eigen::Index>(open_rows_.size()));
     for (std::size_t k = 0; k < open_rows_.size(); ++k) p_.open_(open_rows_[k], static_cast<Eigen::Index>(k)) = 1;
     p_.whole_->solve(p_.open_);
