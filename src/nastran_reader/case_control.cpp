@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "nastran_reader/case_command.h"
 #include "nastran_reader/field.h"
+#include "nastran_reader/matrix_selection.h"
 
 namespace dynalin::nastran_reader {
 
@@ -13,63 +15,16 @@ namespace {
 
 bool begins(std::string_view text, std::string_view word) { return text.starts_with(word); }
 
-// A stretch of one line.
-struct Piece {
-  std::string_view text;
-  Span at;
-};
-
-Piece piece(const Line& line, std::string_view part) {
-  part = trimmed(part);
-  if (part.empty()) return {part, line.span(line.text.size(), 0)};
-  return {part, line.span(static_cast<std::size_t>(part.data() - line.text.data()), part.size())};
-}
-
-// Between commas outside of parentheses.
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> out;
-  int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
-    if (i < text.size() && text[i] == '(') ++depth;
-    if (i < text.size() && text[i] == ')') --depth;
-    if (i == text.size() || (text[i] == ',' && depth <= 0)) {
-      out.push_back(text.substr(begin, i - begin));
-      begin = i + 1;
-    }
-  }
-  return out;
-}
-
-bool is_text_command(std::string_view name) {
-  return begins(name, "TITL") || begins(name, "SUBT") || begins(name, "LABE");
-}
-
-bool is_matrix_command(std::string_view name) {
-  for (const auto word : {"K2PP", "B2PP", "M2PP", "K2GG", "B2GG", "M2GG"}) {
-    if (name == word) return true;
-  }
-  return false;
-}
-
-// A command with everything that belongs to it: the lines after one that ends with a comma.
-struct Command {
-  std::string name;     // SPC, DISP
-  std::string options;  // in parentheses behind the name
-  Span at;
-  std::vector<Piece> values;
-};
-
 class ControlReader {
  public:
-  ControlReader(CaseControl& control, Diagnostics& diagnostics) : c_(control), diagnostics_(diagnostics) {}
+  ControlReader(CaseControl& control, Diagnostics& diagnostics)
+      : c_(control), diagnostics_(diagnostics), matrices_(diagnostics) {}
 
   void executive(const Line& line) {
     const std::string text = upper_trimmed(line.text);
     if (!begins(text, "SOL") || (text.size() > 3 && std::isalpha(static_cast<unsigned char>(text[3])))) return;
     const std::size_t skip = line.text.find_first_of("lL") + 1;
-    std::string_view rest = line.text.substr(skip);
-    while (!rest.empty() && (rest[0] == ' ' || rest[0] == '=' || rest[0] == '\t')) rest.remove_prefix(1);
+    const std::string_view rest = without_equals(line.text.substr(skip));
     const Piece value = piece(line, rest.substr(0, rest.find(',')));
     static const std::map<std::string, int> names = {{"SEDCEIG", 107},  {"SEDFREQ", 108}, {"SEMODES", 103},
                                                      {"SESTATIC", 101}, {"SEDTRAN", 109}, {"SEMCEIG", 110},
@@ -87,72 +42,13 @@ class ControlReader {
   }
 
   void case_lines(std::span<const Line> lines) {
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      Command command;
-      if (!head(lines[i], command)) continue;
-      if (is_text_command(command.name)) {
-        if (begins(command.name, "LABE") && !command.values.empty()) here().label = std::string(command.values[0].text);
-        continue;
-      }
-      bool open = upper_trimmed(lines[i].text).ends_with(',');
-      while (open && i + 1 < lines.size()) {
-        ++i;
-        for (const std::string_view part : split(lines[i].text)) {
-          const Piece p = piece(lines[i], part);
-          if (!p.text.empty()) command.values.push_back(p);
-        }
-        open = upper_trimmed(lines[i].text).ends_with(',');
-      }
-      run(command);
-    }
-    finish();
+    CommandReader commands(lines, diagnostics_);
+    while (const auto command = commands.next()) run(*command);
+    c_.matrices = matrices_.uses(c_.sets);
+    if (c_.subcases.empty()) c_.subcases.push_back(c_.above);
   }
 
  private:
-  // Name, options and the values of the first line.
-  bool head(const Line& line, Command& out) {
-    const std::string_view text = trimmed(line.text);
-    std::size_t i = 0;
-    while (i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_')) ++i;
-    if (i == 0) {
-      diagnostics_.error("case-command", line.span(), "this line of case control begins with no command");
-      return false;
-    }
-    out.name = upper_trimmed(text.substr(0, i));
-    out.at = piece(line, text.substr(0, i)).at;
-    while (i < text.size() && text[i] == ' ') ++i;
-    if (i < text.size() && text[i] == '(' && !is_matrix_command(out.name)) {
-      const std::size_t close = text.find(')', i);
-      if (close == std::string_view::npos) {
-        diagnostics_.error("case-command", piece(line, text.substr(i)).at, "the parenthesis is not closed");
-        return false;
-      }
-      out.options = upper_trimmed(text.substr(i + 1, close - i - 1));
-      i = close + 1;
-    }
-    std::string_view rest = text.substr(i);
-    while (!rest.empty() && (rest[0] == ' ' || rest[0] == '=' || rest[0] == '\t')) rest.remove_prefix(1);
-    if (out.name == "PARAM" || out.name == "SET") {
-      while (!rest.empty() && (rest[0] == ',' || rest[0] == ' ')) rest.remove_prefix(1);
-    }
-    if (out.name == "SET") {
-      // SET n = …: the number is the first value.
-      const std::size_t equals = rest.find('=');
-      const std::string_view number = rest.substr(0, equals);
-      out.values.push_back(piece(line, number));
-      rest = equals == std::string_view::npos ? std::string_view() : rest.substr(equals + 1);
-    }
-    if (is_text_command(out.name)) {
-      out.values.push_back(piece(line, rest));
-      return true;
-    }
-    for (const std::string_view part : split(rest)) {
-      const Piece p = piece(line, part);
-      if (!p.text.empty()) out.values.push_back(p);
-    }
-    return true;
-  }
-
   Subcase& here() { return c_.subcases.empty() ? c_.above : c_.subcases.back(); }
 
   std::optional<Selected> number(const Command& command) {
@@ -200,10 +96,14 @@ class ControlReader {
       c_.subcases.push_back(std::move(next));
     } else if (begins(name, "DISP") || name == "VECTOR" || begins(name, "PRES")) {
       request(command);
+    } else if (begins(name, "LABE")) {
+      if (!command.values.empty()) here().label = std::string(command.values[0].text);
+    } else if (begins(name, "TITL") || begins(name, "SUBT")) {
+      return;
     } else if (name == "SET") {
       set(command);
     } else if (is_matrix_command(name)) {
-      matrices(command);
+      matrices_.take(command, !c_.subcases.empty());
     } else if (begins(name, "AUTOS")) {
       const std::string value = command.values.empty() ? "YES" : upper_trimmed(command.values[0].text);
       c_.autospc = value != "NO";
@@ -270,102 +170,9 @@ class ControlReader {
     }
   }
 
-  // NAME, 2.0*NAME, (1.0,0.0)*NAME
-  std::optional<MatrixUse> use(std::string_view text, const Span& at, bool& with_factor) {
-    MatrixUse u;
-    u.at = at;
-    const std::size_t star = text.find('*');
-    std::string_view name = text;
-    with_factor = star != std::string_view::npos;
-    if (with_factor) {
-      std::string_view factor = trimmed(text.substr(0, star));
-      name = text.substr(star + 1);
-      if (factor.starts_with('(') && factor.ends_with(')')) {
-        const auto parts = split(factor.substr(1, factor.size() - 2));
-        const Field re = read_field(parts[0], at), im = read_field(parts.size() > 1 ? parts[1] : "", at);
-        if (parts.size() != 2 || re.form != Field::Form::real || im.form != Field::Form::real) {
-          diagnostics_.error("case-command", at, fmt::format("{} is no complex factor", factor), "(1.0,0.0)*NAME");
-          return std::nullopt;
-        }
-        if (im.real != 0) {
-          diagnostics_.error("unassembled-card", at, "complex matrices are not solved here");
-          return std::nullopt;
-        }
-        u.factor = re.real;
-      } else {
-        const Field f = read_field(factor, at);
-        if (f.form != Field::Form::real && f.form != Field::Form::integer) {
-          diagnostics_.error("case-command", at, fmt::format("{} is no factor of a matrix", factor), "2.0*NAME");
-          return std::nullopt;
-        }
-        u.factor = f.real;
-      }
-    }
-    const Field f = read_field(name, at);
-    if (f.form != Field::Form::word) {
-      diagnostics_.error("case-command", at, fmt::format("{} is no name of a matrix", name));
-      return std::nullopt;
-    }
-    u.name = f.text;
-    return u;
-  }
-
-  void matrices(const Command& command) {
-    if (command.values.empty()) {
-      diagnostics_.error("case-command", command.at, fmt::format("{} names no matrix", command.name));
-      return;
-    }
-    if (const auto before = raw_.find(command.name); before != raw_.end() && !c_.subcases.empty()) {
-      const auto same = [&] {
-        if (before->second.size() != command.values.size()) return false;
-        for (std::size_t k = 0; k < command.values.size(); ++k) {
-          if (upper_trimmed(before->second[k].text) != upper_trimmed(command.values[k].text)) return false;
-        }
-        return true;
-      };
-      if (!same())
-        diagnostics_.error("case-command", command.at, fmt::format("{} changes between subcases", command.name),
-                           "a direct solution keeps its constraints and matrices: write it above the subcases");
-      return;
-    }
-    raw_[command.name] = command.values;
-  }
-
-  // Sets may stand behind the commands that name them.
-  void finish() {
-    for (const auto& [name, values] : raw_) {
-      std::vector<MatrixUse>& uses = c_.matrices[name];
-      std::size_t factors = 0;
-      for (const Piece& value : values) {
-        const Field f = read_field(value.text, value.at);
-        if (f.form == Field::Form::integer) {
-          const auto found = c_.sets.find(f.integer);
-          if (found == c_.sets.end() || found->second.names.empty()) {
-            diagnostics_.error("undefined-card-id", value.at,
-                               fmt::format("{} names SET {}, which is no list of matrices", name, f.integer));
-            continue;
-          }
-          for (const auto& [text, at] : found->second.names) {
-            bool with_factor = false;
-            if (auto u = use(text, at, with_factor)) uses.push_back(std::move(*u));
-          }
-          continue;
-        }
-        bool with_factor = false;
-        if (auto u = use(value.text, value.at, with_factor)) uses.push_back(std::move(*u));
-        factors += with_factor;
-      }
-      if (factors > 0 && factors < values.size())
-        diagnostics_.error("case-command", values[0].at,
-                           fmt::format("some matrices of {} have a factor and some have none", name),
-                           "write 1.0* before those that have none");
-    }
-    if (c_.subcases.empty()) c_.subcases.push_back(c_.above);
-  }
-
   CaseControl& c_;
   Diagnostics& diagnostics_;
-  std::map<std::string, std::vector<Piece>> raw_;
+  MatrixSelection matrices_;
 };
 
 bool is_begin(const Line& line) {
