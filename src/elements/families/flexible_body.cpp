@@ -5,224 +5,24 @@
 #include <array>
 
 #include "elements/families/defined_unknown.h"
-#include "mechanics/path.h"
+#include "elements/families/flexible_motion.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
 
 namespace {
 
-using Index = Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// A quantity and its first derivative along the motion.
-template <class S>
-using Momentary = Dual<1, S>;
-template <class S>
-Momentary<S> momentary(const S& value, const S& rate) {
-  Momentary<S> m(value);
-  m.partial[0] = rate;
-  return m;
-}
-template <class S>
-Vec3<Momentary<S>> now(const Vec3<TimeTaylor<S>>& v) {
-  return {momentary(v.x.value, v.x.rate), momentary(v.y.value, v.y.rate), momentary(v.z.value, v.z.rate)};
-}
-template <class S>
-Vec3<Momentary<S>> rate_now(const Vec3<TimeTaylor<S>>& v) {
-  return {momentary(v.x.rate, v.x.acceleration), momentary(v.y.rate, v.y.acceleration),
-          momentary(v.z.rate, v.z.acceleration)};
-}
-
-// The pose of the BCS along the motion, global axes.
-template <class S>
-struct Path {
-  Vec3<TimeTaylor<S>> r;
-  Mat3<TimeTaylor<S>> A;
-
-  Vec3<Momentary<S>> spin() const {  // w
-    return {dot(now(A.z), rate_now(A.y)), dot(now(A.x), rate_now(A.z)), dot(now(A.y), rate_now(A.x))};
-  }
-  Vec3<S> acceleration_less(const Vector& g) const {
-    return {r.x.acceleration - S(g.x), r.y.acceleration - S(g.y), r.z.acceleration - S(g.z)};
-  }
-};
-
-// What the modal coordinates make of the body, BCS axes: c, J and Σ G_k q_k′.
-template <class S>
-struct Shape {
-  Vec3<TimeTaylor<S>> c;
-  Mat3<Momentary<S>> J;
-  Vec3<Momentary<S>> swing;
-
-  Vec3<S> arm() const { return {c.x.value, c.y.value, c.z.value}; }
-  S polar() const { return J(0, 0).value + J(1, 1).value + J(2, 2).value; }  // of all three axes
-};
-
-template <class S>
-struct Balance {
-  Vec3<S> force, moment;
-};
-
-// F and L of the head of flexible_body.h.
-template <class S>
-Balance<S> balance(double mass, const Path<S>& path, const Shape<S>& shape, const Vector& gravity) {
-  const Vec3<TimeTaylor<S>> arm = path.A * shape.c;
-  const Vec3<Momentary<S>> h = shape.J * path.spin() + shape.swing;
-  const Vec3<Momentary<S>> H = now(path.A.x) * h.x + now(path.A.y) * h.y + now(path.A.z) * h.z;
-  const Vec3<S> a = path.acceleration_less(gravity);
-  const Vec3<S> at{arm.x.value, arm.y.value, arm.z.value};
-  const Vec3<S> at2{arm.x.acceleration, arm.y.acceleration, arm.z.acceleration};
-  return {mass * a + at2, cross(at, a) + Vec3<S>{H.x.partial[0], H.y.partial[0], H.z.partial[0]}};
-}
-
-// The quadratic invariants contracted with the modal coordinates, a row for each mode.
-struct Contracted {
-  VectorXd q, q1, q2;
-  std::vector<Vector> G, G1;   // G_k and its rate, which is −Σ I5_kl q_l′
-  std::vector<Vector> G2;      // −(Σ I5_kl q_l′)′
-  std::vector<Matrix3> J, J1;  // J,k and its rate
-  Shape<double> shape;
-};
-
-void put(Matrix3& m, std::size_t component, double x) {
-  const auto [i, k] = tensor_components[component];
-  m(i, k) += x;
-  if (i != k) m(k, i) += x;
-}
-
-Contracted contract(const ModalInertia& I, const Motion& motion, std::size_t first) {
-  const std::size_t n = I.modes();
-  const auto of = [&](const std::vector<double>& all) {
-    return VectorXd(Eigen::Map<const VectorXd>(all.data() + first, static_cast<Index>(n)));
-  };
-  Contracted c{of(motion.extra),
-               of(motion.extra_rate),
-               of(motion.extra_acceleration),
-               I.turning,
-               {},
-               {},
-               I.tensor_by_mode,
-               {},
-               {}};
-  c.G1.resize(n), c.G2.resize(n), c.J1.resize(n);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const VectorXd x = I.turning_by_mode[a].transpose() * c.q, x1 = I.turning_by_mode[a].transpose() * c.q1,
-                   x2 = I.turning_by_mode[a].transpose() * c.q2;
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto at = static_cast<Index>(k);
-      c.G[k][a] += x(at), c.G1[k][a] = x1(at), c.G2[k][a] = x2(at);
-    }
-  }
-  for (std::size_t at = 0; at < tensor_components.size(); ++at) {
-    const VectorXd x = I.tensor_by_modes[at] * c.q, x1 = I.tensor_by_modes[at] * c.q1;
-    for (std::size_t k = 0; k < n; ++k) {
-      put(c.J[k], at, x(static_cast<Index>(k)));
-      put(c.J1[k], at, x1(static_cast<Index>(k)));
-    }
-  }
-  Matrix3 J = I.tensor, J1;
-  Vector arm = I.first, arm1, arm2, swing, swing1;
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto at = static_cast<Index>(k);
-    const double q = c.q(at), q1 = c.q1(at), q2 = c.q2(at);
-    arm += q * I.of_modes[k], arm1 += q1 * I.of_modes[k], arm2 += q2 * I.of_modes[k];
-    J += (0.5 * q) * (I.tensor_by_mode[k] + c.J[k]), J1 += q1 * c.J[k];
-    swing += q1 * c.G[k], swing1 += q2 * c.G[k] + q1 * c.G1[k];
-  }
-  c.shape.c = along_motion(arm, arm1, arm2);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) c.shape.J(i, k) = momentary(J(i, k), J1(i, k));
-    c.shape.swing[i] = momentary(swing[i], swing1[i]);
-  }
-  return c;
-}
-
-template <std::size_t N>
-Momentary<Dual<N>> constant(const Momentary<double>& x) {
-  return momentary(Dual<N>(x.value), Dual<N>(x.partial[0]));
-}
-template <std::size_t N>
-Shape<Dual<N>> constant(const Shape<double>& s) {
-  Shape<Dual<N>> out;
-  out.c = path::constant<N>(s.c);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) out.J(i, k) = constant<N>(s.J(i, k));
-    out.swing[i] = constant<N>(s.swing[i]);
-  }
-  return out;
-}
-template <std::size_t N>
-Path<Dual<N>> constant(const Path<double>& p) {
-  return {path::constant<N>(p.r), {path::constant<N>(p.A.x), path::constant<N>(p.A.y), path::constant<N>(p.A.z)}};
-}
+using flexible_motion::Balance;
+using flexible_motion::ByPose;
+using flexible_motion::Contracted;
+using flexible_motion::Felt;
+using flexible_motion::Path;
+using flexible_motion::pose_seeds;
+using Index = Eigen::Index;
 
 constexpr std::array families = {PartialBy::position, PartialBy::velocity, PartialBy::acceleration};
-// δr, then δθ, each at three levels.
-constexpr std::size_t pose_seeds = 18;
-using ByPose = Dual<pose_seeds>;
-
-Path<ByPose> varied(const Path<double>& p) {
-  Path<ByPose> s = constant<pose_seeds>(p);
-  for (std::size_t level = 0; level < 3; ++level) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3<Taylor> along{Taylor(unit_vectors[k].x), Taylor(unit_vectors[k].y), Taylor(unit_vectors[k].z)};
-      path::vary(s.r, 6 * level + k, level, along);
-      for (std::size_t a = 0; a < 3; ++a) path::vary(s.A[a], 6 * level + 3 + k, level, path::turned(k, p.A[a]));
-    }
-  }
-  return s;
-}
-
-// The shape with a modal coordinate varied at three levels: δc = I3 ξ, δJ = J,k ξ, δΣ G q′ = Σ I5_kl q_l′ ξ + G_k ξ′.
-Shape<Dual<3>> varied(const Contracted& c, const Vector& moves, std::size_t k) {
-  Shape<Dual<3>> s = constant<3>(c.shape);
-  for (std::size_t level = 0; level < 3; ++level)
-    path::vary(s.c, level, level, {Taylor(moves.x), Taylor(moves.y), Taylor(moves.z)});
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      s.J(i, j).value.partial[0] = c.J[k](i, j);
-      s.J(i, j).partial[0].partial[0] = c.J1[k](i, j);
-      s.J(i, j).partial[0].partial[1] = c.J[k](i, j);
-    }
-    s.swing[i].value.partial[0] = -c.G1[k][i];
-    s.swing[i].partial[0].partial[0] = -c.G2[k][i];
-    s.swing[i].value.partial[1] = c.G[k][i];
-    s.swing[i].partial[0].partial[2] = c.G[k][i];
-  }
-  return s;
-}
-
-// What one mode feels of the motion of the BCS: the first four terms of Q_k.
-template <class S>
-struct Felt {
-  Vec3<S> a, w, wdot;        // acceleration of the origin less gravity, angular velocity and its rate, BCS axes
-  std::array<S, 6> squares;  // of w, as in tensor_components
-
-  Felt(const Path<S>& path, const Vector& gravity) {
-    const Vec3<S> global = path.acceleration_less(gravity);
-    const Vec3<Momentary<S>> spin = path.spin();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3<TimeTaylor<S>>& axis = path.A[k];
-      a[k] = axis.x.value * global.x + axis.y.value * global.y + axis.z.value * global.z;
-      w[k] = spin[k].value, wdot[k] = spin[k].partial[0];
-    }
-    for (std::size_t at = 0; at < squares.size(); ++at) {
-      const auto [i, k] = tensor_components[at];
-      squares[at] = (i == k ? 0.5 : 1.0) * (w[i] * w[k]);
-    }
-  }
-  S by(const Vector& moves, const Vector& G, const Vector& G1, const Matrix3& J) const {
-    S sum = a.x * moves.x + a.y * moves.y + a.z * moves.z;
-    for (std::size_t k = 0; k < 3; ++k) sum += wdot[k] * G[k] + w[k] * (2 * G1[k]);
-    for (std::size_t at = 0; at < squares.size(); ++at) {
-      const auto [i, k] = tensor_components[at];
-      sum += squares[at] * (-J(i, k));
-    }
-    return sum;
-  }
-};
 
 void add_rows(PartialBy family, std::int32_t row, std::int32_t column, const VectorXd& values, Equations& eq) {
   eq.add(family, row, column, {values.data(), static_cast<std::size_t>(values.size())});
@@ -340,7 +140,7 @@ void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
     const BodyMotion& b = motion.body(item.body);
     const std::int32_t column = eq.layout().body(item.body).offset, modes = item.first_column;
     const Path<double> path{along_motion(b.r, b.rdot, b.rddot), b.axes()};
-    const Contracted c = contract(I, motion, item.first_extra);
+    const Contracted c = flexible_motion::contract(I, motion, item.first_extra);
 
     const Balance<double> of_body = balance(I.mass, path, c.shape, gravity_);
     // The derivatives of axes are of the size of ω² and α in all directions, also where they turn nothing.
@@ -358,7 +158,8 @@ void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
     if (eq.wants_partials()) {
       // By the pose.
       const Path<ByPose> varied_path = varied(path);
-      const Balance<ByPose> by_pose = balance(I.mass, varied_path, constant<pose_seeds>(c.shape), gravity_);
+      const Balance<ByPose> by_pose =
+          balance(I.mass, varied_path, flexible_motion::constant<pose_seeds>(c.shape), gravity_);
       const Felt<ByPose> felt_by_pose(varied_path, gravity_);
       MatrixXd of_modes(static_cast<Index>(n), static_cast<Index>(pose_seeds));
       for (std::size_t k = 0; k < n; ++k) {
@@ -376,7 +177,7 @@ void FlexibleBodyKernel::equations(const Motion& motion, Equations& eq) const {
         if (n > 0) add_rows(families[seed / 6], modes, at, of_modes.col(static_cast<Index>(seed)), eq);
       }
       // By the modal coordinates.
-      const Path<Dual<3>> fixed_path = constant<3>(path);
+      const Path<Dual<3>> fixed_path = flexible_motion::constant<3>(path);
       for (std::size_t k = 0; k < n; ++k) {
         const Balance<Dual<3>> by_mode = balance(I.mass, fixed_path, varied(c, I.of_modes[k], k), gravity_);
         for (std::size_t level = 0; level < 3; ++level) {
