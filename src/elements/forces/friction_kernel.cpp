@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "elements/families/defined_unknown.h"
 #include "elements/families/markers.h"
@@ -17,51 +16,6 @@ namespace {
 
 // How bristles are listed among the states: after those that the published list names.
 constexpr auto bristles = static_cast<StateType>(102);
-
-bool at_rest(const Motion& motion) {
-  return motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
-}
-
-// a b, where b may be without slip: then a needs no derivative.
-template <class T>
-T product(const T& a, const T& b) {
-  T r = b * a.value;
-  if (b.value == 0.0) return r;
-  for (std::size_t k = 0; k < r.partial.size(); ++k) r.partial[k] += a.partial[k] * b.value;
-  return r;
-}
-
-// Angular velocity of I in the axes of J, ½ Σ a × a′ over the axes of I.
-template <class T>
-Vec3<T> turning(const RelativeFrame<TimeTaylor<T>>& I) {
-  Vec3<T> w{T(0.0), T(0.0), T(0.0)};
-  for (const auto* a : {&I.x, &I.y, &I.z}) {
-    w += cross(Vec3<T>{a->x.value, a->y.value, a->z.value}, Vec3<T>{a->x.rate, a->y.rate, a->z.rate}) * 0.5;
-  }
-  return w;
-}
-
-template <class T, std::size_t n>
-void take(const JointFriction& f, const T& load, const std::array<T, n>& u, const std::array<T, n>& z,
-          std::array<double, n> preload, std::array<double, n> lever, std::array<T, 3>& w, std::array<T, 3>& rate) {
-  const T pressed = product(load, f.law.coefficient(size_beside_itself(u)));
-  const std::array<T, n> s = f.law.direction(u, z);
-  for (std::size_t k = 0; k < n; ++k) w[k] = -(product(pressed, s[k]) * lever[k] + s[k] * preload[k]);
-  if (!f.law.has_bristles()) return;
-  const std::array<T, n> moves = f.law.creep_rate(u, z);
-  for (std::size_t k = 0; k < n; ++k) rate[k] = moves[k];
-}
-
-// A slip that is none: what a simulation that has come to rest leaves of it has no direction, and the linear model is
-// that of bristles at rest.
-constexpr double no_slip = 1e-6;  // of the velocity up to which surfaces stick
-template <class T, std::size_t n>
-bool takes_rest(const JointFriction& f, std::array<T, n>& u) {
-  const double speed = std::sqrt(squared(u).value);
-  if (!(speed > 0) || !f.law.has_bristles() || speed > no_slip * f.law.stiction_velocity) return false;
-  for (T& x : u) x.value = 0;
-  return true;
-}
 
 }  // namespace
 
@@ -95,82 +49,6 @@ void JointFrictionKernel::bind(Binder& binder) {
   }
 }
 
-JointFrictionKernel::Evaluated JointFrictionKernel::evaluate(const Placed& p, const PairMotion& pair,
-                                                             const Motion& motion) const {
-  const JointFriction& f = *p.element;
-  Evaluated out;
-  const auto I = path::seeded<std::tuple_size_v<decltype(D::partial)>>(pair.relative);
-
-  // The reaction on I in the axes of J: a function of the pose and linear in the multipliers.
-  MarkerWrench reaction;
-  p.joint->wrench(motion, p.which, true, reaction);
-  const Matrix3 R = value(reaction.pair.axes_J), back = transpose(R);
-  const auto seen_from_J = [&](const Vector& v, const MarkerPartials& by) {
-    const Vector at_J = back * v;
-    const Matrix3 on_d = back * by.origin_I * R, on_phi = back * by.axes_I * R;
-    Vec3<D> seeded{D(at_J.x), D(at_J.y), D(at_J.z)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t c = 0; c < 3; ++c) seeded[k].partial[c] = on_d(k, c), seeded[k].partial[3 + c] = on_phi(k, c);
-    }
-    return seeded;
-  };
-  Vec3<D> force = seen_from_J(reaction.force.force, reaction.force.force_on_position);
-  Vec3<D> torque = seen_from_J(reaction.force.torque, reaction.force.torque_on_position);
-  // Along axes that are turned a reaction takes something of every multiplier.
-  constexpr double turned = 16 * std::numeric_limits<double>::epsilon();
-  const double* known = motion.memory.data() + p.rounding;
-  ReactionRounding rounding{known[0], known[1]};
-  for (const MarkerWrench::Scalar& s : reaction.scalars) {
-    const Vector on_force = back * s.force, on_torque = back * s.torque;
-    const double rounded = turned * std::abs(motion.lambda[static_cast<std::size_t>(s.column)]);
-    rounding.force += norm(on_force) * rounded, rounding.torque += norm(on_torque) * rounded;
-    for (std::size_t k = 0; k < 3; ++k) {
-      force[k].partial[first_row_seed + out.row_count] = on_force[k];
-      torque[k].partial[first_row_seed + out.row_count] = on_torque[k];
-    }
-    out.rows[out.row_count++] = s.column;
-  }
-
-  const auto creep = [&](std::size_t c) {
-    if (p.first_state < 0) return D(0.0);
-    return D(motion.state[static_cast<std::size_t>(p.first_state) + c], first_creep_seed + c);
-  };
-  if (p.first_state >= 0 && at_rest(motion)) out.creep = creep_here(p, I, motion);
-  const Vec3<D> axis = axis_of(f, I), w = turning(I);
-  const D pressing = load(f, force, torque, axis, I.p.z.value, rounding, out.sizes);
-  const auto slips = [&]<std::size_t n>(std::array<D, n> u, std::array<D, n> z, std::array<double, n> preload,
-                                        std::array<double, n> lever) {
-    out.speed = std::sqrt(squared(u).value);
-    take<D, n>(f, pressing, u, z, preload, lever, out.w, out.creep_rate);
-    if (motion.mode != AnalysisMode::linear || !takes_rest(f, u)) return;
-    Values at_rest_w, at_rest_rate;
-    take<D, n>(f, pressing, u, z, preload, lever, at_rest_w, at_rest_rate);
-    for (std::size_t k = 0; k < n; ++k)
-      out.w[k].partial = at_rest_w[k].partial, out.creep_rate[k].partial = at_rest_rate[k].partial;
-  };
-  const auto one = [&](const D& u, double preload) {
-    slips(std::array{u}, std::array{creep(0)}, std::array{preload}, std::array{1.0});
-  };
-  switch (f.surface) {
-    case FrictionSurface::slide:
-      one(I.p.z.rate, f.force_preload);
-      break;
-    case FrictionSurface::sleeve:
-      slips(std::array{I.p.z.rate, f.pin_radius * w.z}, std::array{creep(0), creep(1)},
-            std::array{f.force_preload, f.torque_preload}, std::array{1.0, f.pin_radius});
-      break;
-    case FrictionSurface::ball: {
-      const double r = f.ball_radius, T = f.torque_preload;
-      slips(std::array{r * w.x, r * w.y, r * w.z}, std::array{creep(0), creep(1), creep(2)}, std::array{T, T, T},
-            std::array{1.0, 1.0, 1.0});
-      break;
-    }
-    default:
-      one(f.pin_radius * dot(axis, w), f.torque_preload);
-  }
-  return out;
-}
-
 // What a value depends on but for creep, take(family, column, partial).
 template <class Take>
 void JointFrictionKernel::by_motion_and_reaction(const D& value, const Evaluated& at, const PairMotion& pair,
@@ -191,7 +69,8 @@ void JointFrictionKernel::by_motion_and_reaction(const D& value, const Evaluated
       take(velocity_family, column, dot(x, on.force_by_rate[k]));
     }
   });
-  for (std::size_t k = 0; k < at.row_count; ++k) take(PartialBy::lambda, at.rows[k], value.partial[first_row_seed + k]);
+  for (std::size_t k = 0; k < at.row_count; ++k)
+    take(PartialBy::lambda, at.rows[k], value.partial[Evaluated::first_row_seed + k]);
 }
 
 // Subtracts `value` from an equation.
@@ -203,7 +82,8 @@ void JointFrictionKernel::add_row(std::int32_t row, const D& value, const Evalua
                          [&](PartialBy family, std::int32_t column, double by) { eq.add(family, row, column, -by); });
   if (p.first_state < 0) return;
   for (std::size_t k = 0; k < p.element->component_count(); ++k)
-    eq.add(PartialBy::state, row, p.first_state + static_cast<std::int32_t>(k), -value.partial[first_creep_seed + k]);
+    eq.add(PartialBy::state, row, p.first_state + static_cast<std::int32_t>(k),
+           -value.partial[Evaluated::first_creep_seed + k]);
 }
 
 void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
@@ -214,8 +94,8 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element((*labels_)[k]);
     w.clear();
     wrench(motion, k, eq.wants_partials(), w);
-    const bool acts = p.joint && !(f.rests_in_statics && at_rest(motion));
-    const Evaluated at = acts ? evaluate(p, w.pair, motion) : inactive(p, motion);
+    const bool acts = p.joint && !(f.rests_in_statics && in_equilibrium(motion));
+    const Evaluated at = acts ? Evaluated::at(p, w.pair, motion) : Evaluated::inactive(p, motion);
     for (std::size_t c = 0; c < f.component_count(); ++c) {
       const std::int32_t row = begin_definition(motion, eq, p.first_algebraic + static_cast<std::int32_t>(c));
       add_row(row, at.w[c], at, p, w.pair, PartialBy::damping, eq);
@@ -233,56 +113,16 @@ void JointFrictionKernel::add_creep(const Placed& p, std::size_t component, cons
                                     const Motion& motion, Equations& eq) const {
   const std::int32_t z = p.first_state + static_cast<std::int32_t>(component), row = eq.state_row(z);
   const auto k = static_cast<std::size_t>(z);
-  const bool rests = at_rest(motion);
+  const bool rests = in_equilibrium(motion);
   eq.add_residual(row, motion.state_rate[k] + (rests ? motion.state[k] : 0.0));
   eq.add(PartialBy::state_rate, row, z, 1.0);
   eq.add(PartialBy::state, row, z, rests ? 1.0 : 0.0);
   add_row(row, rests ? at.creep[component] : at.creep_rate[component], at, p, pair, PartialBy::velocity, eq);
 }
 
-// Exerts nothing, and its bristles stay as they are.
-JointFrictionKernel::Evaluated JointFrictionKernel::inactive(const Placed& p, const Motion& motion) {
-  Evaluated out;
-  for (std::size_t c = 0; p.first_state >= 0 && c < p.element->component_count(); ++c)
-    out.creep[c] = D(reference(p, motion).creep(c));
-  return out;
-}
-
-FrictionReference JointFrictionKernel::reference(const Placed& p, const Motion& motion) {
-  return FrictionReference(std::span(motion.memory).subspan(static_cast<std::size_t>(p.first_memory)));
-}
-
-JointFrictionKernel::Values JointFrictionKernel::creep_here(const Placed& p, const RelativeFrame<TimeTaylor<D>>& I,
-                                                            const Motion& motion) {
-  const JointFriction& f = *p.element;
-  const FrictionReference before = reference(p, motion);
-  const auto now = [](const Vec3<TimeTaylor<D>>& a) { return Vec3<D>{a.x.value, a.y.value, a.z.value}; };
-  const Vec3<D> turned = before.rotation(now(I.x), now(I.y), now(I.z));
-  const D moved = I.p.z.value - before.displacement();
-  const double largest = f.law.largest_creep();
-  const auto one = [&](const D& displacement) {
-    return Values{creep_at_rest<D, 1>({before.creep(0)}, {displacement}, largest)[0], D(0.0), D(0.0)};
-  };
-  switch (f.surface) {
-    case FrictionSurface::slide:
-      return one(moved);
-    case FrictionSurface::sleeve: {
-      const auto z = creep_at_rest<D, 2>({before.creep(0), before.creep(1)}, {moved, f.pin_radius * turned.z}, largest);
-      return {z[0], z[1], D(0.0)};
-    }
-    case FrictionSurface::ball: {
-      const double r = f.ball_radius;
-      return creep_at_rest<D, 3>({before.creep(0), before.creep(1), before.creep(2)},
-                                 {r * turned.x, r * turned.y, r * turned.z}, largest);
-    }
-    default:
-      return one(f.pin_radius * dot(axis_of(f, I), turned));
-  }
-}
-
 // What a search for an equilibrium passes on its way is no motion.
 void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
-  if (at_rest(motion)) return;
+  if (in_equilibrium(motion)) return;
   for (const Placed& p : placed_) {
     if (p.first_memory < 0) continue;
     std::array<double, 3> creep{};
@@ -339,11 +179,11 @@ void JointFrictionKernel::sticking(const Motion& motion, std::vector<Stiction>& 
     const Placed& p = placed_[k];
     const JointFriction& f = *p.element;
     if (!p.joint || p.first_state < 0) continue;
-    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
+    const Evaluated at = Evaluated::at(p, pair_motion(motion, *p.I, *p.J), motion);
     Stiction s{k, fmt::format("JOINT/{}", f.joint), p.first_state, {}, f.component_count()};
     double stiffest = 0;
     for (std::size_t c = 0; c < s.directions; ++c) {
-      s.stiffness[c] = -at.w[c].partial[first_creep_seed + c] / f.lever(c);
+      s.stiffness[c] = -at.w[c].partial[Evaluated::first_creep_seed + c] / f.lever(c);
       stiffest = std::max(stiffest, s.stiffness[c]);
     }
     if (f.law.sticks(at.speed) && stiffest > 0) out.push_back(s);
@@ -355,8 +195,8 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
     const Placed& p = placed_[k];
     const JointFriction& f = *p.element;
     if (!p.joint || p.first_state < 0 || f.rests_in_statics) continue;
-    const Evaluated at = evaluate(p, pair_motion(motion, *p.I, *p.J), motion);
-    std::array<double, most_components> bent{}, borne{}, tried{};
+    const Evaluated at = Evaluated::at(p, pair_motion(motion, *p.I, *p.J), motion);
+    std::array<double, Evaluated::most_components> bent{}, borne{}, tried{};
     for (std::size_t c = 0; c < f.component_count(); ++c) {
       bent[c] = at.creep[c].value, borne[c] = at.w[c].value;
       tried[c] = motion.state[static_cast<std::size_t>(p.first_state) + c];
@@ -379,10 +219,10 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
 void JointFrictionKernel::vanishing(const Motion& motion, const Layout& layout, std::vector<VanishingSize>& out) const {
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
-    if (!p.joint || (p.element->rests_in_statics && at_rest(motion))) continue;
+    if (!p.joint || (p.element->rests_in_statics && in_equilibrium(motion))) continue;
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    const Evaluated at = evaluate(p, pair, motion);
-    for (const Sizes::Vanishing& none : at.sizes.vanishing()) {
+    const Evaluated at = Evaluated::at(p, pair, motion);
+    for (const Evaluated::Sizes::Vanishing& none : at.sizes.vanishing()) {
       VanishingSize size;
       for (std::size_t c = 0; c < p.element->component_count(); ++c) {
         if (at.w[c].partial[none.seed] != 0) size.algebraic.push_back(p.first_algebraic + static_cast<std::int32_t>(c));
