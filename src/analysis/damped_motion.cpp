@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
 
 namespace dynalin {
@@ -29,7 +30,7 @@ class Relaxation {
 
   bool run(OperatingPoint& op, StaticHistory& history, double effort_limit,
            const std::function<bool(OperatingPoint&)>& at_rest) {
-    equations_.settle(op);
+    settle(equations_, op);
     velocity_ = Eigen::VectorXd::Zero(coordinates_);
     int improved = 0, asked = -1;
     double lowest = std::numeric_limits<double>::infinity(), force = 0;
@@ -118,7 +119,7 @@ class Relaxation {
         }
         double taken = 0;
         OperatingPoint next = moved(system_, op, equations_.augmented(), *d, 1.0, limits, &taken);
-        equations_.settle(next);
+        settle(equations_, next);
         const Eigen::VectorXd u = taken / step_ * d->head(coordinates_);
         const Eigen::VectorXd a = (u - velocity_) / step_;
         const double foretold = before + taken * (motion - before);

@@ -11,6 +11,7 @@
 #include "analysis/levenberg_marquardt.h"
 #include "analysis/original_method.h"
 #include "analysis/pushed_away.h"
+#include "analysis/settled_reactions.h"
 #include "analysis/static_refusal.h"
 #include "analysis/static_step.h"
 #include "analysis/turned_over.h"
@@ -58,7 +59,7 @@ OperatingPoint elsewhere(const System& system, OperatingPoint op, int k) {
 std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEquations& equations, OperatingPoint op,
                                      Findings& findings) {
   equations.measure_by(Yardstick::model);
-  equations.settle(op);
+  settle(equations, op);
   equations.evaluate(op, true);
   const auto j = judge(equations, op);
   if (!j || !(j->largest <= tolerance.error) || !(equations.imbalance() <= tolerance.imbalance)) return std::nullopt;
@@ -154,7 +155,7 @@ EquilibriumSearch::EquilibriumSearch(const System& system, OperatingPoint drawn,
       history_(options.progress),
       descent_(equations_, options, history_),
       op_(std::move(drawn)) {
-  equations_.settle_after_motion(op_);
+  settle_after_motion(equations_, op_);
   drawn_ = op_;
 }
 
@@ -269,7 +270,7 @@ std::optional<OperatingPoint> EquilibriumSearch::near_enough() {
 void EquilibriumSearch::keep_first_state(const std::vector<double>& first_state) {
   OperatingPoint kept = op_;
   kept.state = first_state;
-  equations_.settle(kept);
+  settle(equations_, kept);
   equations_.evaluate(kept, true);
   const auto j = judge(equations_, kept);
   if (j && j->balanced && j->determined) op_ = std::move(kept);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
 
 namespace dynalin {
@@ -61,7 +62,7 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
 
 bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_limit) {
   const System& system = equations.system();
-  equations.settle(op);
+  settle(equations, op);
   equations.evaluate(op, true);
   const double force = equations.force_scale();
   const Eigen::VectorXd row_unit = equations.row_units(force);
@@ -84,7 +85,7 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     bool taken = false;
     if (step) {
       OperatingPoint next = moved(system, op, equations.augmented(), *step, 1.0, {0.5});
-      equations.settle(next);
+      settle(equations, next);
       equations.evaluate(next, true);
       const double after = equations.merit(force);
       if (after < merit * (1 - 1e-6)) {

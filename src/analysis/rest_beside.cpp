@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/comparable_scales.h"
+#include "analysis/settled_reactions.h"
 #include "analysis/static_equations.h"
 #include "analysis/static_step.h"
 
@@ -68,7 +69,7 @@ std::optional<OperatingPoint> rest_beside(const System& system, OperatingPoint o
   const Matrix B = size.cwiseInverse().asDiagonal() * basis_of(kept, size);
   double hold_states = 0, before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
-    equations.settle(op);
+    settle(equations, op);
     equations.evaluate(op, true);
     if (!equations.residual().allFinite()) return std::nullopt;
     auto step = step_across(equations, B, hold_states);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
 
 namespace dynalin {
@@ -114,7 +115,7 @@ bool Descent::finish(OperatingPoint& op) {
   int stuck = 0, unbalanced = 0;  // steps since the one that was shorter, and the one that brought balance closer
   std::optional<OperatingPoint> rest, faded;
   for (int k = 0; k < steps; ++k) {
-    equations_.settle(here);
+    settle(equations_, here);
     equations_.evaluate(here, true);
     const auto j = judge(equations_, here);
     if (!j) break;
@@ -154,7 +155,7 @@ bool Descent::finish(OperatingPoint& op) {
   if (rest) {
     op = std::move(*rest);
     system_.remember(op);
-    equations_.settle(op);
+    settle(equations_, op);
     return true;
   }
   equations_.evaluate(op, true);
@@ -310,7 +311,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
     OperatingPoint next = moved(system_, op, equations_.augmented(), *step, fraction, options_.limits, &taken);
     // A matrix that is all but singular sends what nothing holds beyond everything.
     if (escaped(system_, first_, next)) break;
-    if (level > 1e-6) equations_.settle(next);
+    if (level > 1e-6) settle(equations_, next);
     equations_.evaluate(next, false);
     const double after = equations_.merit(force_);
     if (after <= (level < 1e-9 ? 4 * merit_ + 1e-24 : merit_ * (1 - 0.5 * fraction))) {
@@ -335,7 +336,7 @@ bool Descent::implicit(OperatingPoint& op) {
     if (step && slope < 0) {
       double taken = 0;
       OperatingPoint next = moved(system_, op, equations_.augmented(), *step, 1.0, options_.limits, &taken);
-      equations_.settle(next);
+      settle(equations_, next);
       const double foretold = -hold_ * equations_.damping(*step);
       equations_.evaluate(next, false);
       const double off = std::abs(equations_.slope(*step) - foretold) / -slope;

@@ -6,23 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/initial.h"
-
 namespace dynalin {
-
-namespace {
-
-bool finite(const std::vector<double>& v) {
-  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-}
-
-double largest(const std::vector<double>& v) {
-  double most = 0;
-  for (const double x : v) most = std::max(most, std::abs(x));
-  return most;
-}
-
-}  // namespace
 
 StaticEquations::StaticEquations(const System& system)
     : system_(system), augmented_(system), coordinates_(system.layout().coordinate_count) {
@@ -268,62 +252,6 @@ void StaticEquations::measure_by(Yardstick yardstick) {
   }
 }
 
-void StaticEquations::settle(OperatingPoint& op) {
-  Findings ignored;
-  if (auto joined = assemble_position(system_, op, ignored)) op = std::move(*joined);
-  OperatingPoint next = op;
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates_);
-  const std::vector<bool> held(held_.size(), true);
-  double before = std::numeric_limits<double>::infinity();
-  SparseLu lu;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    evaluate(next, true);
-    if (!residual_.allFinite()) return;
-    std::vector<double> D(static_cast<std::size_t>(augmented_.size()), 0.0);
-    Eigen::MatrixXd step = -residual_;
-    double level = 0;  // in units of rounding
-    for (std::int32_t k = 0; k < coordinates_; ++k) {
-      const double d = D[static_cast<std::size_t>(k)] = holding(k);
-      step(k, 0) -= d * a(k);
-    }
-    for (std::int32_t k = 0; k < rows_.size(); ++k) step(augmented_.lambda(k), 0) = 0;
-    for (std::size_t k = 0; k < held_.size(); ++k) step(augmented_.state(static_cast<std::int32_t>(k)), 0) = 0;
-    for (std::int32_t k = 0; k < augmented_.size(); ++k) {
-      if (step(k, 0) == 0) continue;
-      const double off = k < coordinates_ ? std::abs(D[static_cast<std::size_t>(k)] * a(k)) : 0.0;
-      level = std::max(level, std::abs(step(k, 0)) / (rounding_(k) + std::numeric_limits<double>::epsilon() * off +
-                                                      std::numeric_limits<double>::min()));
-    }
-    if (level <= 4 || (level <= 1e4 && level >= 0.5 * before)) break;
-    before = level;
-    const AugmentedColumns columns{PartialBy::position, PartialBy::state, false};
-    if (!factor(lu, augmented_.matrix(eq_, rows_, part_.active, columns, {}, held, D))) return;
-    lu.solve(step);
-    a += step.col(0).head(a.size());
-    for (std::size_t k = 0; k < next.lambda.size(); ++k)
-      next.lambda[k] += step(augmented_.lambda(static_cast<std::int32_t>(k)), 0);
-    for (std::size_t k = 0; k < next.algebraic.size(); ++k)
-      next.algebraic[k] += step(augmented_.algebraic(static_cast<std::int32_t>(k)), 0);
-  }
-  if (finite(next.lambda) && finite(next.algebraic)) op = std::move(next);
-}
-
-void StaticEquations::settle_after_motion(OperatingPoint& op) {
-  constexpr double rest = 1e-12;  // rounding of solutions in matrices as they are
-  const std::vector<double> reactions = op.lambda, values = op.algebraic;
-  settle(op);
-  bool vanished = false;
-  const auto vanish = [&](double& now) {
-    vanished = vanished || now != 0;
-    now = 0;
-  };
-  if (largest(op.lambda) <= rest * largest(reactions)) std::ranges::for_each(op.lambda, vanish);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (std::abs(op.algebraic[k]) <= rest * std::abs(values[k])) vanish(op.algebraic[k]);
-  }
-  if (vanished) settle(op);
-}
-
 Eigen::VectorXd StaticEquations::row_units(double force) const {
   Eigen::VectorXd u(augmented_.size());
   for (Eigen::Index k = 0; k < u.size(); ++k) u(k) = unit(k, force > 0 ? force : 1.0);
@@ -358,6 +286,14 @@ ColumnMatrix StaticEquations::tangent(double hold, double hold_states) const {
     diagonal[static_cast<std::size_t>(augmented_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : hold_states;
   }
   return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state}, {}, held_, diagonal);
+}
+
+ColumnMatrix StaticEquations::holding_matrix() const {
+  std::vector<double> diagonal(static_cast<std::size_t>(augmented_.size()), 0.0);
+  for (std::int32_t k = 0; k < coordinates_; ++k) diagonal[static_cast<std::size_t>(k)] = holding(k);
+  const std::vector<bool> held(held_.size(), true);
+  return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state, false}, {}, held,
+                           diagonal);
 }
 
 ColumnMatrix StaticEquations::tangent_of_motion(double by_velocity, double by_acceleration, double by_rate,

@@ -66,15 +66,6 @@ class StaticEquations {
   Eigen::VectorXd row_units(double force) const;
   Eigen::VectorXd column_units(const OperatingPoint&) const;
 
-  // Constraints met, then reactions and algebraic values from  D a = F + Gᵀλ,  G a = 0  w = e  at rest, with the metric
-  // D that `tangent` holds with; the imbalance that is left, −D a, does no work on the reactions. Leaves the point as
-  // it is if that fails.
-  void settle(OperatingPoint&);
-  // The same of a point that a motion has led to. What it leaves of reactions and values that nothing keeps up at rest
-  // is rounding, and none is kept: each step would leave a smaller rest, of which a search took the size for that of
-  // what is at play, down to 1e-272.
-  void settle_after_motion(OperatingPoint&);
-
   // Work of the imbalance along a step of the coordinates, and the step's size in the metric that `tangent` holds with.
   double slope(const Eigen::VectorXd& step) const;
   double damping(const Eigen::VectorXd& step) const;
@@ -82,6 +73,14 @@ class StaticEquations {
   // Partials of the residual with `hold` times a typical stiffness added to the coordinates and `hold_states` to the
   // states.
   ColumnMatrix tangent(double hold, double hold_states) const;
+
+  // The metric D, as one for coordinate k: a typical stiffness of the first point that was evaluated with partials.
+  double holding(std::int32_t k) const {
+    const double s = system_.length() / system_.coordinate_scale(k);
+    return (yardstick_ == Yardstick::model ? stiffness_ : own_stiffness_[static_cast<std::size_t>(k)]) * s * s;
+  }
+  // D in the place of the stiffness, states held: what reactions and values follow from (settled_reactions.h).
+  ColumnMatrix holding_matrix() const;
 
   // From now on evaluations with partials have those by velocities, accelerations and rates as well.
   void look_at_motion() { motion_ = true; }
@@ -101,11 +100,6 @@ class StaticEquations {
   // 1 for a force, 1/length for a moment.
   double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
   double unit(Eigen::Index k, double force) const;
-  // A typical stiffness of the first point that was evaluated with partials, as one for coordinate k.
-  double holding(std::int32_t k) const {
-    const double s = system_.length() / system_.coordinate_scale(k);
-    return (yardstick_ == Yardstick::model ? stiffness_ : own_stiffness_[static_cast<std::size_t>(k)]) * s * s;
-  }
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);
   void measure_rounding(const OperatingPoint&);

@@ -9,16 +9,6 @@
 namespace dynalin::analysis_test::static_equations_test {
 namespace {
 
-TEST(StaticEquations, settling_finds_the_reactions_that_do_no_work) {
-  Search s(pendulum(0.6));
-  s.equations.evaluate(s.op, true);
-  // Only the moment about the hinge is left: its rows have the weight's, the others are met.
-  const Eigen::VectorXd& r = s.equations.residual();
-  EXPECT_NEAR(r(5), 20 * std::sin(0.6), 1e-12);
-  EXPECT_NEAR(s.equations.imbalance(), std::abs(r(5)) / s.system->length(), 1e-9);
-  EXPECT_DOUBLE_EQ(s.equations.force_scale(), 20);
-}
-
 TEST(StaticEquations, the_tangent_is_the_derivative_of_the_residual_and_holding_adds_to_its_diagonal) {
   Search s(pendulum(0.6) + "SPRINGDAMPER/1, ROTATIONAL, I=21, J=1, KT=7, CT=1, ANGLE=0\n" + fold);
   const auto residual = [&](Eigen::Index c, double by) -> Eigen::VectorXd {

@@ -9,6 +9,7 @@
 
 #include "analysis/joined_sets.h"
 #include "analysis/part_names.h"
+#include "analysis/settled_reactions.h"
 #include "mechanics/stiction_source.h"
 #include "system/sources.h"
 
@@ -108,7 +109,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
     f.message += fmt::format(": {}", fmt::join(unheld, "; ")) + exhausted_friction(system, system.motion(op));
     return f;
   }
-  equations.settle(op);
+  settle(equations, op);
   equations.evaluate(op, true);
   if (const Eigen::VectorXd sum = equations.residual() + equations.rounding(); !sum.allFinite()) {
     f.message = system.undefined_value(system.motion(op)), f.code = "undefined-value";

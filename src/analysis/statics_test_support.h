@@ -1,6 +1,7 @@
 // Models in which one search for rest comes to its end and another does not, and the point from which searches begin.
 #pragma once
 
+#include "analysis/settled_reactions.h"
 #include "analysis/static_descent.h"
 #include "analysis/static_equations.h"
 #include "analysis/statics.h"
@@ -20,7 +21,7 @@ struct Search {
 
   explicit Search(const std::string& text) : system(system_of(text)) {
     op.mode = AnalysisMode::statics;
-    equations.settle(op);
+    settle(equations, op);
   }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;

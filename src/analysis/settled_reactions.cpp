@@ -1,0 +1,81 @@
+#include "analysis/settled_reactions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "analysis/initial.h"
+
+namespace dynalin {
+
+namespace {
+
+bool finite(const std::vector<double>& v) {
+  return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
+}
+
+double largest(const std::vector<double>& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::abs(x));
+  return most;
+}
+
+}  // namespace
+
+void settle(StaticEquations& equations, OperatingPoint& op) {
+  const System& system = equations.system();
+  const AugmentedSystem& augmented = equations.augmented();
+  const std::int32_t coordinates = system.layout().coordinate_count;
+  Findings ignored;
+  if (auto joined = assemble_position(system, op, ignored)) op = std::move(*joined);
+  OperatingPoint next = op;
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(coordinates);
+  double before = std::numeric_limits<double>::infinity();
+  SparseLu lu;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    equations.evaluate(next, true);
+    if (!equations.residual().allFinite()) return;
+    Eigen::MatrixXd step = -equations.residual();
+    double level = 0;  // in units of rounding
+    for (std::int32_t k = 0; k < coordinates; ++k) step(k, 0) -= equations.holding(k) * a(k);
+    step.middleRows(coordinates, augmented.algebraic(0) - coordinates).setZero();
+    step.bottomRows(augmented.size() - augmented.state(0)).setZero();
+    for (std::int32_t k = 0; k < augmented.size(); ++k) {
+      if (step(k, 0) == 0) continue;
+      const double off = k < coordinates ? std::abs(equations.holding(k) * a(k)) : 0.0;
+      level = std::max(level,
+                       std::abs(step(k, 0)) / (equations.rounding()(k) + std::numeric_limits<double>::epsilon() * off +
+                                               std::numeric_limits<double>::min()));
+    }
+    if (level <= 4 || (level <= 1e4 && level >= 0.5 * before)) break;
+    before = level;
+    if (!equations.factor(lu, equations.holding_matrix())) return;
+    lu.solve(step);
+    a += step.col(0).head(a.size());
+    for (std::size_t k = 0; k < next.lambda.size(); ++k)
+      next.lambda[k] += step(augmented.lambda(static_cast<std::int32_t>(k)), 0);
+    for (std::size_t k = 0; k < next.algebraic.size(); ++k)
+      next.algebraic[k] += step(augmented.algebraic(static_cast<std::int32_t>(k)), 0);
+  }
+  if (finite(next.lambda) && finite(next.algebraic)) op = std::move(next);
+}
+
+void settle_after_motion(StaticEquations& equations, OperatingPoint& op) {
+  constexpr double rest = 1e-12;  // rounding of solutions in matrices as they are
+  const std::vector<double> reactions = op.lambda, values = op.algebraic;
+  settle(equations, op);
+  bool vanished = false;
+  const auto vanish = [&](double& now) {
+    vanished = vanished || now != 0;
+    now = 0;
+  };
+  if (largest(op.lambda) <= rest * largest(reactions)) std::ranges::for_each(op.lambda, vanish);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::abs(op.algebraic[k]) <= rest * std::abs(values[k])) vanish(op.algebraic[k]);
+  }
+  if (vanished) settle(equations, op);
+}
+
+}  // namespace dynalin
