@@ -17,10 +17,8 @@
 
 #include <algorithm>
 
+#include "elements/constraints/course_in_time.h"
 #include "elements/constraints/motion_routine.h"
-#include "elements/controls/array.h"
-#include "elements/controls/variable.h"
-#include "elements/controls/variable_list.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/row_terms.h"
@@ -245,71 +243,6 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
   }
   std::vector<Driven> driven_;
   const std::vector<ElementLabel>* labels_;
-};
-
-// FUNCTION with the VARIABLEs that it reads put into it.
-class CourseInTime {
- public:
-  CourseInTime(Model& model, const ElementLabel& label, Diagnostics& diagnostics)
-      : model_(model), label_(label), diagnostics_(diagnostics) {}
-
-  // Nothing after a reported dependence on the state.
-  std::optional<Expression> of(const Expression& function) {
-    const std::size_t before = diagnostics_.error_count();
-    Expression course = function.with_definitions([&](const Atom& atom) { return definition(atom); });
-    if (diagnostics_.error_count() > before) return std::nullopt;
-    return course;
-  }
-
- private:
-  std::optional<Expression> definition(const Atom& atom) {
-    if (atom.function->family == AtomFamily::time) return std::nullopt;
-    if (const auto number = constant(atom)) return Expression::constant(*number);
-    const auto variable = variable_of(atom);
-    if (!variable) {
-      diagnostics_.error("function-of-state", atom.at,
-                         fmt::format("{} depends on {}, it may depend on TIME only", label_.text(), atom.at.text()));
-      return std::nullopt;
-    }
-    if (std::find(within_.begin(), within_.end(), *variable) != within_.end()) {
-      diagnostics_.error("function-of-state", atom.at,
-                         fmt::format("{}, which {} follows, depends on itself", atom.at.text(), label_.text()));
-      return std::nullopt;
-    }
-    model_.followed_in_time.push_back({&label_, *variable});
-    within_.push_back(*variable);
-    auto course = of(variable_function(model_, *variable));
-    within_.pop_back();
-    return course;
-  }
-
-  static std::size_t entry(const Atom& atom) { return static_cast<std::size_t>(atom.argument[1] - 1); }
-  const Array* array_of(const Atom& atom) const {
-    if (atom.function->reads != DataSource::array_entry) return nullptr;
-    const auto handle = model_.find(atom.function->statement, atom.argument[0]);
-    return handle ? model_.get<Array>(*handle) : nullptr;
-  }
-  // Of an ARRAY of numbers.
-  std::optional<double> constant(const Atom& atom) const {
-    const Array* array = array_of(atom);
-    return array && entry(atom) < array->numbers.size() ? std::optional(array->numbers[entry(atom)]) : std::nullopt;
-  }
-  // The VARIABLE that an atom reads, by itself or as an entry of an ARRAY, PINPUT or POUTPUT.
-  std::optional<VariableRef> variable_of(const Atom& atom) const {
-    const auto handle = model_.find(atom.function->statement, atom.argument[0]);
-    if (!handle) return std::nullopt;
-    if (atom.function->reads == DataSource::value) return VariableRef{*handle};
-    const Array* array = array_of(atom);
-    const auto* list = atom.function->reads == DataSource::list_entry ? model_.get<VariableList>(*handle) : nullptr;
-    const std::vector<VariableRef>* variables = array ? &array->variables : list ? &list->variables : nullptr;
-    if (!variables || entry(atom) >= variables->size()) return std::nullopt;
-    return (*variables)[entry(atom)];
-  }
-
-  Model& model_;
-  const ElementLabel& label_;
-  Diagnostics& diagnostics_;
-  std::vector<VariableRef> within_;  // whose function is looked at
 };
 
 class MotionSet final : public TypedSet<PrescribedMotion> {
