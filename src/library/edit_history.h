@@ -1,6 +1,7 @@
 // How a model came out of others by edits, and what they stated anew about the start.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,9 @@ class EditHistory {
   EditHistory after(const std::shared_ptr<const System>& from, Restated) const;
   // By all edits that led from that model to this one; by all there were, if that one is none of those it came out of.
   Restated restated_since(const std::shared_ptr<const System>&) const;
+
+  // How many edits are told apart: each with the model it began with, which there still is.
+  std::size_t told_apart() const { return edits_.size(); }
 
  private:
   struct Edit {

@@ -59,6 +59,19 @@ TEST(EditHistory, keeps_what_models_that_are_gone_have_stated) {
   without_first = without_first.after(last, one(9));
   EXPECT_EQ(parts(without_first.restated_since(last)), (Ids{9}));
   EXPECT_EQ(parts(without_first.restated_since(first)), (Ids{8, 9}));
+  const SystemRef newest = a_system();
+  EXPECT_EQ(parts(without_first.after(newest, one(10)).restated_since(first)), (Ids{8, 9, 10}));
+}
+
+TEST(EditHistory, does_not_grow_with_models_that_are_gone) {
+  const SystemRef first = a_system();
+  EditHistory history = EditHistory().after(first, one(0));
+  for (std::int64_t id = 1; id <= 20; ++id) {
+    const SystemRef passing = a_system();
+    history = history.after(passing, one(id));
+    EXPECT_EQ(history.told_apart(), 2u);
+  }
+  EXPECT_EQ(parts(history.restated_since(first)).size(), 21u);
 }
 
 }  // namespace
