@@ -25,7 +25,7 @@ int passes(const PlacedSurface& A, Index a, Index b, const PlacedSurface& B, Ind
 }
 
 // Where an edge of one body crosses a facet of the other one.
-struct Crossing {
+struct EdgeCrossing {
   bool edge_of_I;
   Index triangle;  // one that has the edge
   std::size_t side;
@@ -123,7 +123,7 @@ class SurfaceCrossings {
   }
   void find_cuts() {
     for (std::size_t k = 0; k < crossings_.size(); ++k) {
-      const Crossing& c = crossings_[k];
+      const EdgeCrossing& c = crossings_[k];
       end_cut(k, c.edge_of_I, c.triangle, c.face, c.leaves);
       end_cut(k, c.edge_of_I, body(c.edge_of_I).across(c.triangle, c.side), c.face, !c.leaves);
     }
@@ -145,13 +145,13 @@ class SurfaceCrossings {
     std::vector<std::size_t> order(crossings_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t k) {
-      const Crossing& c = crossings_[k];
+      const EdgeCrossing& c = crossings_[k];
       return std::tuple(c.edge_of_I, c.triangle, c.side, c.along);
     });
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-      const Crossing& first = crossings_[order[begin]];
+      const EdgeCrossing& first = crossings_[order[begin]];
       const auto same = [&](std::size_t k) {
-        const Crossing& c = crossings_[k];
+        const EdgeCrossing& c = crossings_[k];
         return c.edge_of_I == first.edge_of_I && c.triangle == first.triangle && c.side == first.side;
       };
       while (end < order.size() && same(order[end])) ++end;
@@ -159,7 +159,7 @@ class SurfaceCrossings {
     }
   }
   void find_edge(const std::vector<std::size_t>& along) {
-    const Crossing& first = crossings_[along.front()];
+    const EdgeCrossing& first = crossings_[along.front()];
     const bool of_I = first.edge_of_I;
     const PlacedSurface& A = body(of_I);
     const Index t = first.triangle;
@@ -170,7 +170,7 @@ class SurfaceCrossings {
     };
     bool inside = first.leaves;
     for (std::size_t k = 0; k < along.size(); ++k) {
-      const Crossing& c = crossings_[along[k]];
+      const EdgeCrossing& c = crossings_[along[k]];
       consistent_ = consistent_ && c.leaves == inside;
       inside = !c.leaves;
       if (!c.leaves) continue;
@@ -237,7 +237,7 @@ class SurfaceCrossings {
 
   const PlacedSurface &I_, &J_;
   bool consistent_ = true;
-  std::vector<Crossing> crossings_;
+  std::vector<EdgeCrossing> crossings_;
   Groups groups_;  // of crossings, then of vertices
   std::unordered_map<std::uint64_t, Cut> cuts_;
   std::array<std::unordered_set<std::uint64_t>, 2> crossed_;  // edges

@@ -13,7 +13,7 @@ using Index = FacetBody::Index;
 
 // Of the size: how far the one body is moved aside before it is looked where surfaces cross, so that edges which lie in
 // a facet or meet another edge, as those of parts drawn flush do, are beside it for all who ask.
-constexpr double aside = 1e-13;
+constexpr double far_aside = 1e-13;
 const Vector shift_aside{0.5412, -0.2987, 0.7861};
 
 constexpr double roundings = 1e-9;  // of an area
@@ -121,7 +121,7 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
   const auto pairs = near_pairs(I, f, J);
   for (const double times : {1.0, -7.0, 53.0}) {
     RelativeFrame<double> beside = f;
-    beside.p += (times * aside * size) * shift_aside;
+    beside.p += (times * far_aside * size) * shift_aside;
     const PlacedSurface placed_I(I, beside, false), placed_J(J, own, cavity);
     const SurfaceArrangement crossing = arrangement(placed_I, placed_J, pairs);
     found.definite = crossing.consistent;
