@@ -1,6 +1,8 @@
 #include "geometry/facet_overlap.h"
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 
 #include "geometry/facet_arrangement.h"
 #include "geometry/facet_pairs.h"
@@ -52,43 +54,69 @@ void add_part(const PlaneMoments& m, const Vector& n, bool of_I, Overlap& o) {
 
 // How the part of a facet grows where a facet of the other body cuts it: the cut moves over it with the velocity, seen
 // from it, of the other body along the normal of that one's facet by the sine of the angle between both.
-void add_cut(const SurfacePiece& p, const Vector& normal, const Vector& other_normal, const Vector& origin,
-             Overlap::Part& part) {
-  constexpr double parallel = 1e-9;  // sine: of facets in one plane, of which either all or nothing is inside
-  const double sine = norm(cross(normal, other_normal));
-  if (sine <= parallel) return;
-  const double length = (p.of_I ? -1 : 1) * norm(p.to - p.from) / sine;
-  const Vector middle = 0.5 * (p.from + p.to) - origin;
-  part.area_by_shift += other_normal * length;
-  part.area_by_turn += cross(middle, other_normal) * length;
+struct Cut {
+  Vector middle, way;  // from the origin of the volume
+  Vector across;       // the normal by the sine
+  double length;
+
+  // Nothing of facets in one plane, of which either all or nothing is inside.
+  static std::optional<Cut> of(const SurfacePiece& p, const Vector& normal, const Vector& other_normal,
+                               const Vector& origin) {
+    constexpr double parallel = 1e-9;  // sine
+    const double sine = norm(cross(normal, other_normal));
+    if (sine <= parallel) return std::nullopt;
+    return Cut{0.5 * (p.from + p.to) - origin, p.to - p.from, other_normal * ((p.of_I ? -1 : 1) / sine),
+               norm(p.to - p.from)};
+  }
+  void add_to(Overlap::Part& part) const {
+    part.area_by_shift += across * length;
+    part.area_by_turn += cross(middle, across) * length;
+  }
+  void add_to(Overlap::FixedPart& part) const {
+    add_to(static_cast<Overlap::Part&>(part));
+    part.first_by_shift += outer(middle * length, across);
+    // Row k: ∫ x_k (x × n) dl.
+    const Matrix3 second = length * (outer(middle, middle) + (1.0 / 12) * outer(way, way));
+    part.first_by_turn += transpose(Matrix3{cross(second.x, across), cross(second.y, across), cross(second.z, across)});
+  }
+};
+
+// From `begin` on: the part of one triangle. Returns where the next one begins.
+template <class Part>
+std::size_t add_triangle(const std::vector<SurfacePiece>& pieces, std::size_t begin, const PlacedSurface& A,
+                         const PlacedSurface& B, double size, Overlap& o, std::vector<Part>& parts) {
+  const SurfacePiece& first = pieces[begin];
+  const Vector n = A.normal(first.triangle), start = first.from - o.origin;
+  Part part;
+  part.triangle = first.triangle;
+  PlaneMoments m;
+  double reach = 0;
+  std::size_t end = begin;
+  for (; end < pieces.size(); ++end) {
+    const SurfacePiece& p = pieces[end];
+    if (p.volume != first.volume || p.of_I != first.of_I || p.triangle != first.triangle) break;
+    m.add(start, p.from - o.origin, p.to - o.origin, n);
+    reach = std::max(reach, norm(p.to - first.from));
+    if (p.other == SurfacePiece::none) continue;
+    if (const auto cut = Cut::of(p, n, B.normal(p.other), o.origin)) cut->add_to(part);
+  }
+  // What bounds a hole in the part of another volume.
+  if (m.area < -roundings * reach * (reach + 1e-3 * size)) o.whole = false;
+  add_part(m, n, first.of_I, o);
+  part.area = m.area;
+  if constexpr (std::is_same_v<Part, Overlap::FixedPart>) part.first = m.first;
+  parts.push_back(part);
+  return end;
 }
 
 std::vector<Overlap> integrals(const std::vector<SurfacePiece>& pieces, const PlacedSurface& I, const PlacedSurface& J,
                                double size) {
   std::vector<Overlap> volumes;
-  const auto same_volume = [](const SurfacePiece& a, const SurfacePiece& b) { return a.volume == b.volume; };
-  for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
-    const SurfacePiece& first = pieces[begin];
-    if (begin == 0 || !same_volume(pieces[begin - 1], first)) volumes.emplace_back().origin = first.from;
+  for (std::size_t k = 0; k < pieces.size();) {
+    if (k == 0 || pieces[k].volume != pieces[k - 1].volume) volumes.emplace_back().origin = pieces[k].from;
     Overlap& o = volumes.back();
-    const PlacedSurface &A = first.of_I ? I : J, &B = first.of_I ? J : I;
-    const Vector n = A.normal(first.triangle);
-    const Vector start = first.from - o.origin;
-    Overlap::Part part{first.triangle};
-    PlaneMoments m;
-    double reach = 0;
-    for (; end < pieces.size(); ++end) {
-      const SurfacePiece& p = pieces[end];
-      if (!same_volume(p, first) || p.of_I != first.of_I || p.triangle != first.triangle) break;
-      m.add(start, p.from - o.origin, p.to - o.origin, n);
-      reach = std::max(reach, norm(p.to - first.from));
-      if (p.other != SurfacePiece::none) add_cut(p, n, B.normal(p.other), o.origin, part);
-    }
-    // What bounds a hole in the part of another volume.
-    if (m.area < -roundings * reach * (reach + 1e-3 * size)) o.whole = false;
-    add_part(m, n, first.of_I, o);
-    part.area = m.area;
-    (first.of_I ? o.of_I : o.of_J).push_back(part);
+    k = pieces[k].of_I ? add_triangle(pieces, k, I, J, size, o, o.of_I)
+                       : add_triangle(pieces, k, J, I, size, o, o.of_J);
   }
   return volumes;
 }

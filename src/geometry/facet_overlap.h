@@ -21,12 +21,19 @@ struct Overlap {
     Vector area_by_shift{}, area_by_turn{};
   };
 
+  // The same of J, whose facets do not move.
+  struct FixedPart : Part {
+    Vector first{};  // ∫ x dS [length³]
+    Matrix3 first_by_shift{}, first_by_turn{};
+  };
+
   Vector origin;      // a place of its surface
   double volume = 0;  // [length³]
   Vector moment{};    // ∫ x dV [length⁴]
   Vector volume_by_shift{}, volume_by_turn{};
   Matrix3 moment_by_shift{}, moment_by_turn{};  // row: component of the integral
-  std::vector<Part> of_I, of_J;
+  std::vector<Part> of_I;
+  std::vector<FixedPart> of_J;
   bool whole = true;  // false: there are holes in it, through which the bodies reach
 };
 

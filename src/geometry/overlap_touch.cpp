@@ -51,10 +51,12 @@ struct Exit {
 };
 
 // Of the facets that look along the line, the one that it meets nearest to where it starts.
-std::optional<Exit> exit_of(const PlacedFacets<double>& A, const std::vector<Overlap::Part>& facets, const Vector& from,
+template <class Part>
+std::optional<Exit> exit_of(const PlacedFacets<double>& A, const std::vector<Part>& facets, const Vector& from,
                             const Vector& way) {
   std::optional<Exit> nearest;
-  for (const auto& [t, area, by_shift, by_turn] : facets) {
+  for (const Part& facet : facets) {
+    const Index t = facet.triangle;
     const Vector n = A.normal(t);
     if (!(dot(n, way) > 0)) continue;
     Exit e{t, A.length_to(t, from, way)};
@@ -116,17 +118,18 @@ struct NetArea {
   T sides{0.0};                          // their area
 };
 
-double surface_of(const std::vector<Overlap::Part>& parts) {
+template <class Part>
+double surface_of(const std::vector<Part>& parts) {
   double sum = 0;
-  for (const Overlap::Part& p : parts) sum += p.area;
+  for (const Part& p : parts) sum += p.area;
   return sum;
 }
 
-template <class T>
-NetArea<T> net_area(const PlacedFacets<T>& A, const std::vector<Overlap::Part>& parts, const Nudge<T>& nudge) {
+template <class T, class Part>
+NetArea<T> net_area(const PlacedFacets<T>& A, const std::vector<Part>& parts, const Nudge<T>& nudge) {
   NetArea<T> net;
   std::vector<std::pair<T, Vec3<T>>> faces;
-  for (const Overlap::Part& p : parts) {
+  for (const Part& p : parts) {
     faces.emplace_back(nudge.of(p.area, p.area_by_shift, p.area_by_turn), A.normal(p.triangle));
     net.all += faces.back().second * faces.back().first;
   }
@@ -162,19 +165,45 @@ std::optional<Vec3<T>> normal_of(const Overlap& o, const PlacedFacets<T>& I, con
   return normalized(of_J.face * (of_I.sides / sides) - of_I.face * (of_J.sides / sides));
 }
 
-// To the planes of all facets that look along a line, each by what of it is seen along it: where the line passes
-// through a hole in them, as that in the middle of a ring does.
+// --- the depth
+
+// How far the surfaces of J and of I are from a place along the normal.
 template <class T>
-T mean_length(const PlacedFacets<T>& A, const std::vector<Overlap::Part>& parts, const Nudge<T>& nudge,
-              const Vec3<T>& from, const Vec3<T>& way) {
-  T sum(0.0), seen(0.0);
-  for (const Overlap::Part& p : parts) {
-    const Vec3<T> n = A.normal(p.triangle);
-    const T cosine = dot(n, way),
-            weight = step(cosine, side_below, face_above) * nudge.of(p.area, p.area_by_shift, p.area_by_turn);
-    sum += weight * dot(n, A.corner(p.triangle, 0) - from), seen += weight * cosine;
+struct Reach {
+  T above{0.0}, below{0.0};
+  T sum() const { return above + below; }
+};
+
+// From the centroid c, where one of the surfaces is flat and the other comes to a point, to an edge or a face there: by
+// their mean distances from it. With a cross-section that grows from the point on as the power p of the way, of the
+// depth d the mean is d/(p + 1) and c is d/(p + 2) below the flat surface, of which d is what both say together. Where
+// none is flat it is less than the depth.
+template <class T>
+Reach<T> mean_reach(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& nudge, const T& volume,
+                    const Vec3<T>& from_origin, const Vec3<T>& normal) {
+  T seen(0.0), flux(0.0);  // ∫ n · m dS, ∫ (x · m) (n · m) dS over J's part; both over I's are what is left to 0 and V
+  for (const Overlap::FixedPart& p : o.of_J) {
+    const T cosine = dot(J.normal(p.triangle), normal);
+    seen += cosine * nudge.of(p.area, p.area_by_shift, p.area_by_turn);
+    flux += cosine * dot(normal, nudge.of(p.first, p.first_by_shift, p.first_by_turn));
   }
-  return value_of(seen) > 0 ? sum / seen : T(0.0);
+  const T at = dot(normal, from_origin), up = flux / seen - at, down = at - (flux - volume) / seen;
+  if (!(value_of(up) > 0 && value_of(down) > 0)) return {};
+  const T mean = volume / seen;
+  if (value_of(up) > value_of(down)) return {up, mean * up / down - up};
+  return {mean * down / up - down, down};
+}
+
+// From the centroid along the normal to where both surfaces are met.
+template <class T>
+std::optional<Reach<T>> met_reach(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J,
+                                  const Vec3<T>& centroid, const Vec3<T>& normal, double& seam) {
+  const PlacedFacets<double> plain_I{I.body, plain(I.frame), I.sign}, plain_J{J.body, plain(J.frame), J.sign};
+  const Vector from = value_of(centroid), way = value_of(normal);
+  const auto up = exit_of(plain_J, o.of_J, from, way), down = exit_of(plain_I, o.of_I, from, -way);
+  if (!up || !down) return std::nullopt;
+  seam = std::min(up->seam, down->seam);
+  return Reach<T>{J.length_to(up->triangle, centroid, normal), I.length_to(down->triangle, centroid, -normal)};
 }
 
 template <class T>
@@ -191,19 +220,13 @@ Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets
   const auto found = normal_of(o, I, J, nudge);
   if (!o.whole || !found) return t;
   const Vec3<T>& normal = *found;
-  const PlacedFacets<double> plain_I{I.body, plain(I.frame), I.sign}, plain_J{J.body, plain(J.frame), J.sign};
-  const Vector from = value_of(centroid), way = value_of(normal);
-  const auto up = exit_of(plain_J, o.of_J, from, way), down = exit_of(plain_I, o.of_I, from, -way);
-  T above, below;
-  if (up && down) {
-    above = J.length_to(up->triangle, centroid, normal), below = I.length_to(down->triangle, centroid, -normal);
-    t.seam = std::min(up->seam, down->seam);
-  } else {
-    above = mean_length(J, o.of_J, nudge, centroid, normal), below = mean_length(I, o.of_I, nudge, centroid, -normal);
-  }
-  if (!(value_of(above) + value_of(below) > 0)) return t;
-  t.gap = -(above + below);
-  t.normal = normal, t.point = centroid + normal * ((above - below) * 0.5);
+  Reach<T> reach = mean_reach(o, J, nudge, volume, centroid - o.origin, normal);
+  double seam = t.seam;
+  const auto met = met_reach(o, I, J, centroid, normal, seam);
+  if (met && value_of(met->sum()) > value_of(reach.sum())) reach = *met, t.seam = seam;
+  if (!(value_of(reach.sum()) > 0)) return t;
+  t.gap = -reach.sum();
+  t.normal = normal, t.point = centroid + normal * ((reach.above - reach.below) * 0.5);
   t.defined = true;
   return t;
 }

@@ -203,15 +203,22 @@ TEST_F(overlap_touch, of_a_corner_an_edge_and_two_crossing_edges_is_as_deep_as_t
   auto list = touches(cube, f, hook);
   ASSERT_EQ(list.size(), 1u);
   expect_near(list[0].normal, {0, 1, 0}, 1e-10);
-  EXPECT_LE(-list[0].gap, 0.01 + 1e-12);
-  EXPECT_GE(-list[0].gap, 0.005);
-  // Edges across each other: that of the cube along (1, 0, 1) about z turned by 45 degrees, on x = 0.8, y = 1.
+  EXPECT_NEAR(list[0].gap, -0.01, 1e-10);
+  // An edge of the cube across the arm of the hook.
   const double h = std::sqrt(0.5);
   const RelativeFrame<double> turned{{0.9 + 0, 1 + h - 0.02, 0}, {h, 0, h}, {-0.5, h, 0.5}, {-0.5, -h, 0.5}};
   list = touches(cube, turned, hook);
   ASSERT_EQ(list.size(), 1u);
   expect_near(list[0].normal, {0, 1, 0}, 1e-10);
   EXPECT_NEAR(list[0].gap, -0.02, 1e-10);
+  // Two ridges across each other, the one upside down. Where the line through the centroid passes over an edge, the
+  // depth bends.
+  const FacetBody ridge = swept({{0, 0}, {0.5, 0.5}, {0.5, 1}, {0.3, 0.7}, {-0.5, 1}, {-0.5, 0.5}}, -0.3, 0.3);
+  list = touches(ridge, {{0, 0.02, 0}, {0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}, ridge);
+  ASSERT_EQ(list.size(), 1u);
+  expect_near(list[0].normal, {0, -1, 0}, 1e-10);
+  EXPECT_NEAR(list[0].gap, -0.02, 1e-10);
+  EXPECT_LT(list[0].seam, 1e-11);
 }
 
 TEST_F(overlap_touch, what_is_apart_is_as_far_as_its_nearest_features) {
@@ -358,11 +365,17 @@ TEST_F(overlap_touch, in_a_cavity_is_that_with_its_walls) {
   EXPECT_GT(seen, 20);
 }
 
-// The middle of what a tube on its end has in common with the floor is in its hole: it is as deep there as its plane
-// is.
+// The middle of what a tube on its end has in common with the floor is in its hole.
 TEST_F(overlap_touch, of_a_tube_on_its_end_is_in_the_middle_of_it) {
   const std::array<Meridian, 4> profile{{{0.3, 0}, {0.4, 0}, {0.4, 0.5}, {0.3, 0.5}}};
   const FacetBody tube(revolved(profile, true, {.segments = 12})), floor = facets_of_box({-2, -2, -0.5}, {2, 2, 0});
+  const auto upright_tube = seeded_touches(tube, at({0.2, 0, -0.01}), floor);
+  ASSERT_EQ(upright_tube.size(), 1u);
+  EXPECT_NEAR(upright_tube[0].gap.value, -0.01, 1e-12);
+  const std::array<double, 6> wanted{0, 0, 1, 0, 0, 0};
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(upright_tube[0].gap.partial[n], wanted[n], 1e-9) << n;
+  expect_near(value_of(upright_tube[0].point), {0.2, 0, -0.005}, 1e-10);
+
   constexpr double tilt = 0.01;
   const RelativeFrame<double> tilted{
       {0.2, 0, -0.01}, {std::cos(tilt), 0, -std::sin(tilt)}, {0, 1, 0}, {std::sin(tilt), 0, std::cos(tilt)}};
@@ -371,9 +384,9 @@ TEST_F(overlap_touch, of_a_tube_on_its_end_is_in_the_middle_of_it) {
   const Touch<Seeded>& t = list.front();
   EXPECT_TRUE(t.defined);
   expect_near(value_of(t.normal), {0, 0, 1}, 1e-12);
-  // Of a wedge the centroid is off by the tilt times the second moment of area by the volume.
-  EXPECT_GT(t.point.x.value, 0.2);
-  EXPECT_NEAR(-t.gap.value, 0.01 + std::tan(tilt) * (t.point.x.value - 0.2), 1e-7);
+  // More than in the middle of a wedge, whose centroid is beside it, and less than at its deepest.
+  EXPECT_GT(-t.gap.value, 0.01 + tilt * (t.point.x.value - 0.2));
+  EXPECT_LT(-t.gap.value, 0.01 + tilt * 0.4);
   constexpr double h = 1e-6;
   for (std::size_t n = 0; n < 6; ++n) {
     const auto plus = touches(tube, moved(tilted, n, h), floor), minus = touches(tube, moved(tilted, n, -h), floor);
@@ -382,17 +395,24 @@ TEST_F(overlap_touch, of_a_tube_on_its_end_is_in_the_middle_of_it) {
   }
 }
 
-// On an edge the depth bends where the line through the centroid passes over it, whichever body has it.
-TEST_F(overlap_touch, of_an_edge_on_a_face_says_how_near_it_is) {
-  const FacetBody prism_on_edge = swept({{0, 0}, {0.5, 0.5}, {0.5, 1}, {-0.5, 1}, {-0.5, 0.5}}, -0.3, 0.3),
-                  slab = facets_of_box({-2, -1, -2}, {2, 0, 2});
-  const auto f = at({0.1, -0.01, 0.2});
-  for (const auto& list : {touches(prism_on_edge, f, slab), touches(slab, from_other(f), prism_on_edge)}) {
-    ASSERT_EQ(list.size(), 1u);
-    EXPECT_NEAR(list[0].gap, -0.01, 1e-12);
-    EXPECT_LT(list[0].seam, 1e-11);
-  }
-  EXPECT_GT(touches(table(), at({0, 0, -0.01}), facets_of_box({-2, -2, -1}, {2, 2, 0}))[0].seam, 0.05);
+// A ball of facets is as deep in a face as it is, whichever body has it, and so is a ridge.
+TEST_F(overlap_touch, of_what_is_pointed_and_round_is_as_deep_as_it_is) {
+  Mesh ball = ellipsoid({0.5, 0.5, 0.5}, 40);
+  append(ball, box_at({-0.1, -0.1, 2}, {0.1, 0.1, 3}));
+  const FacetBody round(ball),
+      slab = facets_of_box({-2, -2, -1}, {2, 2, 0}),
+      ridge = swept({{0, 0}, {0.5, 0.5}, {0.5, 1}, {0.3, 0.7}, {-0.5, 1}, {-0.5, 0.5}}, -0.3, 0.3),
+      wall = facets_of_box({-2, -1, -2}, {2, 0, 2});
+  const auto expect_depth = [](const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J, double depth,
+                               double tolerance) {
+    for (const auto& list : {touches(I, f, J), touches(J, from_other(f), I)}) {
+      ASSERT_EQ(list.size(), 1u);
+      EXPECT_TRUE(list[0].defined);
+      EXPECT_NEAR(-list[0].gap, depth, tolerance);
+    }
+  };
+  expect_depth(ridge, at({0.1, -0.01, 0.2}), wall, 0.01, 1e-12);
+  for (const double depth : {0.01, 0.05}) expect_depth(round, at({0.3, 0.2, 0.5 - depth}), slab, depth, 0.05 * depth);
 }
 
 // Turned by quarters and shifted by eighths of their sizes, so that edges meet edges and faces lie in faces.
