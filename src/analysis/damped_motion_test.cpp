@@ -10,7 +10,7 @@ namespace dynalin::analysis_test::damped_motion_test {
 namespace {
 
 bool relaxes(Search& s, const DampedMotion& motion = {}) {
-  const std::vector<bool> loose = free_unknowns(s.equations, s.op);
+  const FirstFreedoms loose = freedoms_at(s.equations, s.op);
   return relax_by_motion(s.equations, s.op, motion, s.history, 1e10, [&](OperatingPoint& here) {
     return Descent(s.equations, s.options, s.history).polish(here, loose);
   });

@@ -76,7 +76,7 @@ std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEqu
 }
 
 bool settles(StaticEquations& equations, OperatingPoint& op, const StaticsOptions& options, const DampedMotion& motion,
-             const std::vector<bool>& loose, StaticHistory& history) {
+             const FirstFreedoms& loose, StaticHistory& history) {
   return relax_by_motion(equations, op, motion, history, options.effort_limit, [&](OperatingPoint& here) {
     return Descent(equations, options, history).polish(here, loose);
   });
@@ -87,7 +87,7 @@ bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOpti
                Findings& findings) {
   if (!options.original && !options.motion) return false;
   const OperatingPoint first = op;
-  const std::vector<bool> loose = free_unknowns(equations, first);
+  const FirstFreedoms loose = freedoms_at(equations, first);
   const bool found = options.original ? iterate_by_newton(equations, op, *options.original, history) &&
                                             Descent(equations, options, history).polish(op, loose)
                                       : settles(equations, op, options, *options.motion, loose, history);
@@ -164,7 +164,7 @@ Result<OperatingPoint> EquilibriumSearch::run(AtSaddles at_saddles, const std::v
   if (!found_) search_downhill();
   if (!found_ && is_hopeless()) return refused();
   if (!found_) {
-    loose_ = free_unknowns(equations_, drawn_);
+    loose_ = freedoms_at(equations_, drawn_);
     search_by_other_ways();
   }
   if (!found_ && options_.tolerance) {
@@ -219,18 +219,29 @@ bool EquilibriumSearch::is_hopeless() {
 }
 
 void EquilibriumSearch::descend(OperatingPoint start) {
+  const auto take = [&](Descent& descent, bool rests) {
+    found_ = rests && !escaped(system_, drawn_, op_) && is_of_this_mechanism();
+    held_states_ = descent.held_states();
+    equations_.measure_by(Yardstick::model);
+  };
+  op_ = start;
+  Descent down(equations_, options_, history_);
+  take(down, down.run(op_, &loose_));
+  if (!may_go_on()) return;
+  // Downhill leads away from a saddle.
   op_ = std::move(start);
-  Descent again(equations_, options_, history_);
-  found_ = again.run(op_, &loose_) && !escaped(system_, drawn_, op_) && is_of_this_mechanism();
-  held_states_ = again.held_states();
-  equations_.measure_by(Yardstick::model);
+  Descent beside(equations_, options_, history_);
+  take(beside, beside.polish(op_, loose_));
 }
 
 void EquilibriumSearch::search_by_other_ways() {
-  for (const OperatingPoint* start : {&lowest_, &drawn_}) {
-    OperatingPoint least = *start;
-    if (may_go_on() && reduce_imbalance(equations_, least, 100)) descend(std::move(least));
-  }
+  const auto reduce = [&](StepsMay may) {
+    for (const OperatingPoint* start : {&lowest_, &drawn_}) {
+      OperatingPoint least = *start;
+      if (may_go_on() && reduce_imbalance(equations_, least, 100, may)) descend(std::move(least));
+    }
+  };
+  reduce(StepsMay::fall);
   if (may_go_on()) {
     OperatingPoint at = drawn_;
     StaticHistory apart({});  // its points need not meet any equation on the way: they say nothing of what is least
@@ -248,6 +259,7 @@ void EquilibriumSearch::search_by_other_ways() {
     OperatingPoint moving = *start;
     if (settles(equations_, moving, options_, {}, loose_, history_)) descend(std::move(moving));
   }
+  reduce(StepsMay::climb);
 }
 
 void EquilibriumSearch::search_from_other_places() {

@@ -43,7 +43,7 @@ class EquilibriumSearch {
   Descent descent_;
   OperatingPoint op_, drawn_, lowest_;
   bool found_ = false, held_states_ = false;
-  std::vector<bool> loose_;               // what nothing held to begin with
+  FirstFreedoms loose_;                   // what nothing held to begin with
   const ElementLabel* turned_ = nullptr;  // a joint, by a point that was balanced otherwise
   std::vector<std::string> proof_;        // of what nothing holds anywhere
 };

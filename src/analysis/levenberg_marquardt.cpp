@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
@@ -14,6 +15,7 @@ constexpr double near_rest = 1e-6;  // of the forces at play: Newton's method ta
 // Steps after which the sum of squares must have fallen to the given part, or the search has come to its least.
 constexpr int trial_patience = 12;
 constexpr double trial_progress = 0.8;
+constexpr std::size_t climbing_memory = 3;  // steps that one which may climb must not climb beyond
 
 // ⎡ AᵀA + μ   Bᵀ ⎤ ⎡ y ⎤   ⎡ −Aᵀ U r ⎤      A, B: rows of U J C but for constraints, and those of constraints, with the
 // ⎣ B         0  ⎦ ⎣ p ⎦ = ⎣ −U r_c  ⎦      units U, C of equations and unknowns; δ = C y. μ does not hold reactions.
@@ -60,7 +62,7 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
 
 }  // namespace
 
-bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_limit) {
+bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_limit, StepsMay may) {
   const System& system = equations.system();
   settle(equations, op);
   equations.evaluate(op, true);
@@ -72,14 +74,15 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     if (system.layout().states[z].held_in_statics)
       column_unit(equations.augmented().state(static_cast<std::int32_t>(z))) = 0;
   }
-  double merit = equations.merit(force), mu = 1e-2, growth = 2;
+  double merit = equations.merit(force), least = merit, mu = 1e-2, growth = 2;
   double earlier = std::numeric_limits<double>::infinity();
+  std::deque<double> last;  // that steps came from, where they may climb
   SparseLu lu;
   for (int k = 0; k < step_limit && std::isfinite(merit) && mu < 1e12; ++k) {
     if (std::sqrt(merit) < near_rest) return true;
     if (k % trial_patience == 0) {
-      if (merit > trial_progress * earlier) return false;
-      earlier = merit;
+      if (least > trial_progress * earlier) return false;
+      earlier = least;
     }
     const auto step = damped_step(equations, row_unit, column_unit, mu, lu);
     bool taken = false;
@@ -88,13 +91,17 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
       settle(equations, next);
       equations.evaluate(next, true);
       const double after = equations.merit(force);
-      if (after < merit * (1 - 1e-6)) {
+      const double limit = last.empty() ? merit : std::max(merit, *std::ranges::max_element(last));
+      if (after < limit * (1 - 1e-6)) {
+        if (may == StepsMay::climb) last.push_back(merit);
+        if (last.size() > climbing_memory) last.pop_front();
         // Falls as foretold for small steps of a good model: less damping, in proportion to the gain.
         mu *= after < 0.25 * merit ? 0.1 : 0.4;
         growth = 2;
         op = std::move(next);
         system.remember(op);
         merit = after;
+        least = std::min(least, merit);
         taken = true;
       }
     }

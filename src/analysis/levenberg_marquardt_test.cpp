@@ -29,6 +29,18 @@ TEST(LevenbergMarquardt, ends_where_the_imbalance_is_least_and_says_that_it_is_n
   EXPECT_NEAR(s.op.state[0], 1, 1e-2);
 }
 
+// A torque on a wheel that is 0.5 where it begins to be 1: steps of 0.5 rad come to that place from 2.6 by way of 1.1.
+TEST(LevenbergMarquardt, climbs_over_a_jump_where_it_may) {
+  const std::string wheel =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, REULER=2.6,0,0\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n"
+      "SFORCE/1, ROTATIONAL, I=20, J=1, FUNCTION=IF(AZ(20,1)-1: -AZ(20,1), -AZ(20,1), 0.6-AZ(20,1))\n";
+  Search falls(wheel), climbs(wheel);
+  EXPECT_FALSE(reduce_imbalance(falls.equations, falls.op, 100, StepsMay::fall));
+  EXPECT_NEAR(angle_of(falls.op), 1, 1e-2);
+  EXPECT_TRUE(reduce_imbalance(climbs.equations, climbs.op, 100, StepsMay::climb));
+  EXPECT_NEAR(angle_of(climbs.op), 0, 1e-5);
+}
+
 TEST(LevenbergMarquardt, every_step_brings_it_closer) {
   Search s(swirl());
   double before = s.imbalance();

@@ -39,7 +39,7 @@ bool escaped(const System& system, const OperatingPoint& from, const OperatingPo
   return !(farthest(from, to) <= far * system.length());
 }
 
-bool Descent::run(OperatingPoint& op, const std::vector<bool>* loose) {
+bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
   loose_ = loose;
   equations_.measure_by(Yardstick::model);
   first_ = lowest_ = op;
@@ -113,7 +113,7 @@ bool Descent::finish(OperatingPoint& op) {
   OperatingPoint here = op;
   double smallest = infinite, least_excess = infinite;
   int stuck = 0, unbalanced = 0;  // steps since the one that was shorter, and the one that brought balance closer
-  std::optional<OperatingPoint> rest, faded;
+  std::optional<OperatingPoint> rest, faded, freed;
   for (int k = 0; k < steps; ++k) {
     settle(equations_, here);
     equations_.evaluate(here, true);
@@ -133,7 +133,7 @@ bool Descent::finish(OperatingPoint& op) {
     const bool exact = (j->largest <= 1e-12 && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
                        (!rest && j->largest_of_all <= epsilon);
     const bool at_rest = (j->balanced || exact) && (j->determined || (j->excused && stuck >= 2));
-    if (at_rest && came_to_rest(*j)) rest = here;
+    if (at_rest) (came_to_rest(*j) ? rest : freed) = here;
     if (faded_where_it_is(*j) && came_to_rest(*j)) faded = here;
     if (rest && ((j->largest == 0 && unbalanced > 0) || stuck > 0)) break;
     if (!rest && j->largest_at >= 0) {
@@ -152,6 +152,7 @@ bool Descent::finish(OperatingPoint& op) {
     }
   }
   if (!rest) rest = std::move(faded);
+  if (!rest && freed && rests_put_back(*freed)) rest = std::move(freed);
   if (rest) {
     op = std::move(*rest);
     system_.remember(op);
@@ -218,7 +219,7 @@ bool Descent::came_to_rest(const RestJudgement& j) {
   for (Eigen::Index k = 0; k < move_.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (!j.indifferent[i]) continue;
-    if (loose_ && !(*loose_)[i]) return false;
+    if (loose_ && !loose_->free[i]) return false;
     if (arrived_[i] || move_(k) <= settled_move) continue;
     // A part that may spin about any axis leaves its angles about all of them open, but not each alone; and one that
     // nothing pushes along what is open drifts there as a matrix that is all but singular has it.
@@ -232,9 +233,30 @@ bool Descent::came_to_rest(const RestJudgement& j) {
   return true;
 }
 
-bool Descent::polish(OperatingPoint& op, const std::vector<bool>& loose) {
-  loose_ = &loose;
+// Whether a point where all is balanced, but something is held by nothing that was held at first, is at rest with that
+// where it was.
+bool Descent::rests_put_back(OperatingPoint& op) {
+  if (!loose_ || !may_put_back_) return false;
+  equations_.evaluate(op, true);
+  const auto j = judge(equations_, op);
+  auto back = j ? put_back(equations_, op, loose_->at) : std::nullopt;
+  if (!back) return false;
+  FirstFreedoms loose{loose_->at, j->indifferent};
+  for (std::size_t k = 0; k < loose.free.size(); ++k) loose.free[k] = loose.free[k] || loose_->free[k];
+  Descent there(equations_, options_, history_);
+  there.may_put_back_ = false;
+  if (!there.finish_at(*back, loose)) return false;
+  op = *std::move(back);
+  return true;
+}
+
+bool Descent::polish(OperatingPoint& op, const FirstFreedoms& loose) {
   equations_.measure_by(Yardstick::model);
+  return finish_at(op, loose);
+}
+
+bool Descent::finish_at(OperatingPoint& op, const FirstFreedoms& loose) {
+  loose_ = &loose;
   equations_.evaluate(op, true);
   if (!equations_.residual().allFinite()) return false;
   first_ = lowest_ = op;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/first_freedoms.h"
 #include "analysis/rest_judgement.h"
 #include "analysis/static_history.h"
 #include "analysis/statics.h"
@@ -20,12 +21,13 @@ class Descent {
       : equations_(equations), system_(equations.system()), options_(options), history_(history) {}
 
   // Whether it came to rest; `op` is the last point in any case. Without `loose`, nothing was moved before: what
-  // nothing holds may then rest where it is. Otherwise only unknowns that `loose` marks may be held by nothing.
-  bool run(OperatingPoint& op, const std::vector<bool>* loose = nullptr);
+  // nothing holds may then rest where it is. Otherwise only unknowns that `loose` has may be held by nothing, and those
+  // that rest where they were there as well.
+  bool run(OperatingPoint& op, const FirstFreedoms* loose = nullptr);
 
-  // Whether a point that another search has come near is at rest; it is taken there exactly. Only unknowns that `loose`
-  // marks may be held by nothing.
-  bool polish(OperatingPoint& op, const std::vector<bool>& loose);
+  // Whether a point that another search has come near is at rest; it is taken there exactly. What may be held by
+  // nothing is the same.
+  bool polish(OperatingPoint& op, const FirstFreedoms& loose);
 
   const OperatingPoint& lowest() const { return lowest_; }
   bool held_states() const { return held_states_; }
@@ -37,6 +39,8 @@ class Descent {
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
   bool finish(OperatingPoint& op);
+  bool finish_at(OperatingPoint& op, const FirstFreedoms& loose);
+  bool rests_put_back(OperatingPoint& op);
   Eigen::VectorXd determined_step(const RestJudgement&) const;
   bool came_to_rest(const RestJudgement&);
   bool faded_where_it_is(const RestJudgement&) const;
@@ -49,7 +53,8 @@ class Descent {
   const System& system_;
   const StaticsOptions& options_;
   StaticHistory& history_;
-  const std::vector<bool>* loose_ = nullptr;
+  const FirstFreedoms* loose_ = nullptr;
+  bool may_put_back_ = true;
   int iteration_ = 0, improved_ = 0, converging_ = 0, stalled_ = 0;
   OperatingPoint first_, lowest_;
   double way_ = 0, first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();

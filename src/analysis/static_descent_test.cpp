@@ -65,6 +65,16 @@ TEST(StaticDescent, a_state_marked_as_held_keeps_its_value) {
   EXPECT_EQ(s.op.state[0], 4);
 }
 
+TEST(StaticDescent, what_a_force_no_longer_holds_as_it_faded_is_not_at_rest) {
+  Search s(
+      "PART/2, MASS=1, CM=20, IP=1,1,1, QG=0,0,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\n"
+      "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=EXP(-DZ(20,1))\n");
+  const FirstFreedoms loose = freedoms_at(s.equations, s.op);
+  s.op.poses[1].r.z = 1000;
+  Descent d(s.equations, s.options, s.history);
+  EXPECT_FALSE(d.polish(s.op, loose));
+}
+
 TEST(StaticDescent, what_is_a_million_lengths_away_has_escaped) {
   const auto system = system_of("POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n");
   const OperatingPoint from = system->drawn();

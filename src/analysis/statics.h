@@ -4,11 +4,12 @@
 // The search, each step only where the one before it fails: (1) downhill, by Newton's method and implicit steps of a
 // damped motion (`static_descent.h`); (2) least squares (`levenberg_marquardt.h`); (3) Newton's method as it is
 // (`original_method.h`); (4) continuation (`homotopy.h`); (5) a damped motion with the model's masses
-// (`damped_motion.h`); (6) least squares from other places. (3) or (5) come before all of them where they are asked
-// for. A point with a joint turned over is none (`turned_over.h`), and from a saddle that loads push off the search
-// goes on downhill (`pushed_away.h`). A point that is balanced to rounding is accepted as it stands. A tolerance that
-// is stated never ends the search early, but before (6) a point within it is accepted. What cannot be found is
-// explained (`static_refusal.h`, `unheld_motion.h`).
+// (`damped_motion.h`); (6) least squares in steps that may climb; (7) least squares from other places. (3) or (5) come
+// before all of them where they are asked for. A point with a joint turned over is none (`turned_over.h`), and from a
+// saddle that loads push off the search goes on downhill (`pushed_away.h`). A point that is balanced to rounding is
+// accepted as it stands. What nothing holds there and something did at first must be free where it was at first
+// (`first_freedoms.h`). A tolerance that is stated never ends the search early, but before (7) a point within it is
+// accepted. What cannot be found is explained (`static_refusal.h`, `unheld_motion.h`).
 #pragma once
 
 #include <limits>
