@@ -121,7 +121,9 @@ class Perturber {
           fmt::format("{} is a plant input, and {} follows its course in time; the linear model holds the motion",
                       model.label(f.variable).full_text(), f.follower->full_text()));
     }
-    for (const std::int32_t u : at_->inputs) {
+    for (auto at = at_->inputs.begin(); at != at_->inputs.end(); ++at) {
+      const std::int32_t u = *at;
+      if (std::find(at_->inputs.begin(), at, u) != at) continue;  // listed before
       const AlgebraicUnknown& unknown = layout_.algebraic[static_cast<std::size_t>(u)];
       if (unknown.rate >= 0) {
         result_.warnings.warning(

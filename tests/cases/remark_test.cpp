@@ -132,6 +132,13 @@ TEST_P(Remarks, have_a_code_and_a_place) {
 }
 INSTANTIATE_TEST_SUITE_P(table, Remarks, ::testing::Range<std::size_t>(0, table().size()));
 
+TEST_F(Cases, name_an_input_that_is_listed_twice_once) {
+  const RunResult r =
+      run(SLIDER(BODY) "VARIABLE/1, FUNCTION=2\nPINPUT/1, VARIABLES=1,1\nEND\n", "LINEAR/STATEMAT, PINPUT=1, FILE=a\n");
+  const auto& said = r.json.at("warnings");
+  EXPECT_EQ(std::ranges::count(said, "dependent-input", [](const auto& w) { return w.at("code"); }), 1) << r.err;
+}
+
 TEST(RemarkTable, has_every_code_but_those_that_other_tests_hold) {
   std::set<std::string> covered = {
       "lost-digits",            // initial_conditions_test
