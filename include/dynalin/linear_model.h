@@ -30,7 +30,7 @@ class LinearModel {
   // them, in the order of the dataset.
   PhysicalMatrices physical_matrices() const;
   std::vector<ElementMatrices> element_matrices() const;
-  // Eigenvalues and mode shapes, or eigenvalues alone.
+  // Eigenvalues and mode shapes, or eigenvalues alone. A model without states has none, and throws.
   Modes modes(bool with_shapes = true) const;
   // Some of them, with the same values and vectors; where the model is large bounds are those of the sparse equations,
   // which may be wider. `selected` says whether they are all that was asked for. Large models are solved for these

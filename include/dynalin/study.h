@@ -79,7 +79,8 @@ class Study {
   std::string saved_text(const OperatingPoint&, const std::string& title = {}) const;
   OperatingPoint from_saved_text(const std::string& text) const;
 
-  // A point that is not consistent is made so first.
+  // A point that is not consistent is made so first. A model without states has a linear model where plant inputs and
+  // outputs are both named: D alone.
   LinearModel linearize(const LinearRequest& request = {}) const { return linearize(as_drawn(), request); }
   LinearModel linearize(const OperatingPoint&, const LinearRequest& = {}) const;
 

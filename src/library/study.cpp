@@ -45,6 +45,11 @@ PhysicalEquations equations_of(const LinearModel::Inside& inside) {
   return std::move(*equations);
 }
 
+// A model whose matrices are D alone has no modes.
+void check_for_states(const Linearization& linear) {
+  if (linear.states() == 0) fail(no_states());
+}
+
 }  // namespace
 
 void fail(const StudyFailure& f, std::vector<Remark> said) {
@@ -106,7 +111,7 @@ LinearModel Study::linearize(const OperatingPoint& from, const LinearRequest& re
   std::vector<Remark> remarks = ready ? std::vector<Remark>{} : point.remarks();
   const Reduction reduction{request.dense_up_to.value_or(selected_from_all_up_to)};
   Linearization linear =
-      value_or_throw(linearized(point.inside().point, request, Stateless::refused, reduction), remarks);
+      value_or_throw(linearized(point.inside().point, request, stateless_matrices(request), reduction), remarks);
   append(remarks, remarks_of(linear.remarks()));
   OperatingPoint about = point;
   if (linear.at_rest_as_found) {
@@ -133,6 +138,7 @@ std::vector<ElementMatrices> LinearModel::element_matrices() const {
 }
 
 Modes LinearModel::modes(bool with_shapes) const {
+  check_for_states(inside_->linear);
   std::vector<Remark> remarks = remarks_of(cost_of_all_modes(inside_->linear.states()));
   const Linearization& whole = inside_->whole();
   append(remarks, inside_->remarks_of_whole());
@@ -142,6 +148,7 @@ Modes LinearModel::modes(bool with_shapes) const {
 }
 
 Modes LinearModel::modes(const ModeSelection& selection, bool with_shapes) const {
+  check_for_states(inside_->linear);
   check(selection);
   const Vectors wanted = with_shapes ? Vectors::right : Vectors::none;
   ModesFound found = value_or_throw(modes_of(inside_->linear, wanted, selection));

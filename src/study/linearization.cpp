@@ -57,6 +57,10 @@ void label(Value& result, const LinearRequest& request) {
 
 }  // namespace
 
+Failure no_states() {
+  return {"linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}};
+}
+
 StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request, Stateless stateless,
                                       Reduction reduction) {
   const auto options = options_of(at.system->model(), request);
@@ -78,10 +82,8 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
   auto linear = reduction.has_linear_model ? linearize(*at.system, result.point, *options, reduction.up_to)
                                            : linearize_unreduced(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
-  if (stateless == Stateless::refused && linear->model.states.empty()) {
-    constexpr auto reason = "the model has no states: neither degrees of freedom nor differential states";
-    return tl::unexpected(StudyFailure({"linear analysis", reason, {}}, std::move(linear->warnings)));
-  }
+  if (stateless == Stateless::refused && linear->model.states.empty())
+    return tl::unexpected(StudyFailure(no_states(), std::move(linear->warnings)));
   result.linear = std::move(*linear);
   result.linear.warnings.append(std::move(of_analysis.warnings));
   result.differenced = routines.differenced;

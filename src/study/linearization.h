@@ -25,6 +25,11 @@ struct Linearization {
 
 // What comes of a model without states.
 enum class Stateless : std::uint8_t { refused, taken };
+// Of matrices: D is left where both of its sides are asked for, of a mechanism that only passes loads on.
+inline Stateless stateless_matrices(const LinearRequest& request) {
+  return request.pinput && request.poutput ? Stateless::taken : Stateless::refused;
+}
+Failure no_states();
 
 // Up to how many states the state matrix is formed; without it the linear model is an operator of the size of the
 // model.

@@ -124,5 +124,40 @@ TEST_F(MatrixOutput, energies_of_a_model_at_rest_are_explained) {
   EXPECT_THAT(r.text("model.txt"), Not(HasSubstr("at rest")));
 }
 
+// A force u up at the end of an arm that is built in: the joint bears −u, and u/2 about y.
+const std::string arm =
+    "arm\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1\nMARKER/20\n"
+    "MARKER/21, QP=0.5,0,0\nJOINT/1, FIXED, I=20, J=1\nVARIABLE/1, FUNCTION=0\n"
+    "VARIABLE/2, FUNCTION=JOINT(1,0,4,1)\nVARIABLE/3, FUNCTION=JOINT(1,0,7,1)\n"
+    "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=21, J=1, FUNCTION=VARVAL(1)\nPINPUT/1, VARIABLES=1\n"
+    "POUTPUT/1, VARIABLES=2,3\nRESULTS/XRF\nEND\n";
+
+TEST_F(MatrixOutput, of_a_model_without_states_is_D_alone) {
+  for (const char* option : {"STATEMAT", "MKB"}) {
+    const std::string command = std::string("LINEAR/") + option + ", PINPUT=1, POUTPUT=1, FILE=m";
+    const RunResult r = run(arm, command + "\n" + command + "t, FORMAT=MATLAB\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto D = r.matrix(0, "D");
+    ASSERT_EQ(D.size(), 2u);
+    EXPECT_NEAR(D[0][0], -1, 1e-12);
+    EXPECT_NEAR(D[1][0], 0.5, 1e-12);
+    EXPECT_TRUE(r.labels(0).empty());
+    EXPECT_THAT(r.out, HasSubstr("matrices of 0 states"));
+    EXPECT_THAT(r.text("m"), HasSubstr("D             2    1"));
+    EXPECT_THAT(r.text("mtd"), HasSubstr("-1.0000000000000"));
+    EXPECT_EQ(r.text("mtc"), "\n\n");
+    EXPECT_THAT(r.text("model.res"), HasSubstr("<dl:Matrix name=\"D\" rows=\"2\" columns=\"1\""));
+  }
+}
+
+TEST_F(MatrixOutput, of_a_model_without_states_and_without_D_is_refused) {
+  for (const char* command : {"LINEAR/STATEMAT, PINPUT=1, FILE=m\n", "LINEAR/MKB, POUTPUT=1, FILE=m\n",
+                              "LINEAR/STATEMAT, FILE=m\n", "LINEAR/EIGENSOL\n"}) {
+    const RunResult r = run(arm, command);
+    EXPECT_EQ(r.status, 2);
+    EXPECT_THAT(r.err, HasSubstr("the model has no states"));
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::matrix_output_test

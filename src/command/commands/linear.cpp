@@ -207,11 +207,11 @@ StudyResult<void> Linear::run(RunState& run) const {
   const bool deck = command.option == LinearOption::nastran_export;
   const LinearRequest request = request_of(command, run);
   const std::optional<ModeSelection> selection = selection_of(command, run.options);
-  auto linear = linearized(run.point, request, deck ? Stateless::taken : Stateless::refused,
-                           reduction_of(*this, request, selection.has_value()));
+  const bool matrices = command.option == LinearOption::statemat || command.option == LinearOption::mkb;
+  const Stateless stateless = deck ? Stateless::taken : matrices ? stateless_matrices(request) : Stateless::refused;
+  auto linear = linearized(run.point, request, stateless, reduction_of(*this, request, selection.has_value()));
   if (!linear) return tl::unexpected(linear.error());
   run.remarks.say(linear->remarks());
-  const bool matrices = command.option == LinearOption::statemat || command.option == LinearOption::mkb;
   if (matrices && !command.descriptor) {
     if (auto fits = check_size_of_matrices(linear->states(), request); !fits) return fits;
   }
