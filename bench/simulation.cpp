@@ -61,7 +61,7 @@ std::string vehicle(int n) {
                                    : ", ",
                      0.01 * static_cast<double>(random() % 1000) / 1000);
   }
-  text += "SPLINE/1, X=" + x + "\n, Y=" + y + "\n";
+  text += "SPLINE/1, X=" + x + "\n, Y=" + y + "\nMARKER/9, PART=1\n";
   for (int k = 1; k <= n; ++k) {
     text += fmt::format(
         "PART/{0}, MASS=2, CM={0}0, IP=0.2,0.3,0.4, QG={1:.17g},0,0\nMARKER/{0}0\nMARKER/{0}1, QP=-0.1,-0.25,0\n"
@@ -73,7 +73,7 @@ std::string vehicle(int n) {
     if (k % 5 != 1 && k != n) continue;
     for (int side = 0; side < 2; ++side) {  // a wheel: stiff upwards, dragged along and aside a little
       text += fmt::format(
-          "MARKER/9000{0}{1}, PART=1, QP={2:.17g},{3},-0.3\nVFORCE/{0}{1}, I={0}{1}, JFLOAT=8000{0}{1}, RM=1\n"
+          "MARKER/9000{0}{1}, PART=1, QP={2:.17g},{3},-0.3\nVFORCE/{0}{1}, I={0}{1}, JFLOAT=8000{0}{1}, RM=9\n"
           ", FX=-50*VX({0}{1},1)\\\n, FY=-50*VY({0}{1},1)-1000*DY({0}{1},9000{0}{1})\\\n"
           ", FZ=2E4*(AKISPL(2*TIME+{4},0,1,0)-DZ({0}{1},9000{0}{1})+0.305)-100*VZ({0}{1},1)\nMARKER/8000{0}{1}, "
           "PART=1, "
