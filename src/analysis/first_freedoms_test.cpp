@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/settled_reactions.h"
 #include "analysis/statics_test_support.h"
 
 namespace dynalin::analysis_test::first_freedoms_test {
@@ -22,7 +23,7 @@ TEST(FirstFreedoms, what_the_tangent_leaves_open_goes_back_and_what_it_holds_sta
   EXPECT_TRUE(first.free[static_cast<std::size_t>(wheel.offset) + 5]);
   s.op.poses[1].r.z = 0.5;
   s.op.poses[2].R = rotation_exponential({0, 0, 1.7});
-  s.equations.settle(s.op);
+  settle(s.equations, s.op);
   s.equations.evaluate(s.op, true);
   const auto back = put_back(s.equations, s.op, first.at);
   ASSERT_TRUE(back);
