@@ -115,6 +115,60 @@ TEST(AccelerationChecks, digits_are_lost_near_a_double_root) {
   EXPECT_THAT(on.error().message, HasSubstr("the value of VARIABLE/1"));
 }
 
+// A stop at its touch, where the slope of its force is zero: VARIABLEs that it reads, however well they are known,
+// leave a slope of roundings, of which none of the digits hold. No equation has a multiple root for it.
+TEST(AccelerationChecks, functions_that_begin_at_a_touch_have_no_multiple_root) {
+  const char* laws[] = {"1E4*MAX(0,#)**1.5",          "IMPACT(-#,0,0,1E4,1.5,10,0.1)",
+                        "IMPACT(-#,0,0,1E4,2,0,0.1)", "BISTOP(#,0,-1,0,1E4,1.5,10,0.1)",
+                        "STEP(#,0,0,1,1E4)",          "1E4*#**2",
+                        "-1E4*STEP5(#,-1,0,0,1E4)"};
+  for (const std::string law : laws) {
+    for (const char* touch : {"0", "1E-15", "-1E-15", "3E-14", "1E-12"}) {
+      // √(1² + 2²) − √5, of digits that other roundings take.
+      std::string f = law;
+      f.replace(f.find('#'), 1, std::string("(VARVAL(1)*SIN(VARVAL(2))-2+") + touch + ")");
+      const std::string model = point + "MARKER/21, POINT_MASS=2, QP=1,2,0\n" +
+                                "VARIABLE/1, FUNCTION=SQRT(DX(21,1)**2+DY(21,1)**2)\n"
+                                "VARIABLE/2, FUNCTION=ATAN2(DY(21,1),DX(21,1))\n";
+      const auto expect_nothing = [&](const std::string& reader) {
+        Findings findings;
+        const auto op = solved(model + reader, findings);
+        EXPECT_TRUE(op) << (op ? "" : op.error().message) << " " << reader;
+        for (const Diagnostic& d : findings.warnings.items()) EXPECT_NE(d.code, "lost-digits") << d.message << reader;
+      };
+      expect_nothing("SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=VARVAL(1)*" + f + "\n");
+      expect_nothing("VARIABLE/3, FUNCTION=" + f + "\nDIFF/1, FUNCTION=VARVAL(3)*VARVAL(1)\n");
+      expect_nothing("DIFF/1, IMPLICIT, FUNCTION=2*DIF1(1)-" + f + "\n");
+    }
+  }
+}
+
+// The force of a stop that gives way to its own force: the circle is closed, and regular all the same.
+TEST(AccelerationChecks, a_touch_that_reads_its_own_force_has_no_multiple_root) {
+  for (const char* touch : {"1E-16", "1E-13"}) {
+    Findings findings;
+    const auto op = solved(point + "VARIABLE/1, FUNCTION=" + touch +
+                               "-1E-6*VARVAL(2)\nVARIABLE/2, FUNCTION=IMPACT(-VARVAL(1),0,0,1E4,1.5,0,0.1)\n",
+                           findings);
+    ASSERT_TRUE(op) << op.error().message;
+    EXPECT_THAT(findings.warnings.items(), IsEmpty());
+  }
+}
+
+// Of two values that make a double root together, and a stop that touches where they stand.
+TEST(AccelerationChecks, a_double_root_beside_a_touch_is_told_by_its_own_name) {
+  Findings findings;
+  const auto op = solved(point +
+                             "VARIABLE/1, FUNCTION=VARVAL(2)**2/4+0.9999999999\nVARIABLE/2, FUNCTION=VARVAL(1)\n"
+                             "VARIABLE/3, FUNCTION=DX(20,1)+1E-14\n"
+                             "VARIABLE/4, FUNCTION=1E4*MAX(0,VARVAL(3))**1.5\n",
+                         findings);
+  ASSERT_TRUE(op) << op.error().message;
+  ASSERT_EQ(findings.warnings.items().size(), 1u);
+  EXPECT_EQ(findings.warnings.items()[0].code, "lost-digits");
+  EXPECT_THAT(findings.warnings.items()[0].message, HasSubstr("VARIABLE/1"));
+}
+
 // A damped wheel without mass at rest, on a hinge along none of the axes: its velocity is nothing but rounding, and so
 // is what the rows of the hinge make of its square.
 TEST(AccelerationChecks, accelerations_of_what_has_no_mass_lose_nothing) {
