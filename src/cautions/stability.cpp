@@ -28,9 +28,9 @@ struct Value {
   std::complex<double> hz;
   double bound;
 
-  double least() const { return hz.real() - bound; }
   double most() const { return hz.real() + bound; }
-  bool grows() const { return least() > 0 && hz.real() > least_growth * std::abs(hz); }
+  // A zero that is computed is as large as its bound to first order makes it, by a hair more or less.
+  bool grows() const { return hz.real() > 2 * bound && hz.real() > least_growth * std::abs(hz); }
   bool does_not_grow() const { return most() <= std::max(0.0, least_growth * std::abs(hz)); }
 };
 

@@ -56,7 +56,8 @@ void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
   for (std::size_t k = 0; k < trust.size(); ++k) {
     std::complex<double>& v = pairs.values[k];
     const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
-    if (re > trust[k].bound || re > unit) continue;
+    // To first order the bound of a zero is the value that is computed for it, by a hair more or less.
+    if (re > 2 * trust[k].bound || re > unit) continue;
     v.real(0);
     trust[k].bound += re;
   }

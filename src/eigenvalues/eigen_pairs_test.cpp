@@ -78,6 +78,21 @@ TEST(eigen_pairs, vectors_of_single_real_values_are_real) {
   EXPECT_EQ(pairs.right.col(1), complex);
 }
 
+// To first order a bound is as large as the value that is computed for a zero, and rounding makes it a hair less.
+TEST(eigen_pairs, a_value_as_large_as_its_bound_is_zero) {
+  for (const double off : {-1.2e-65, 2.5e-17, -2.5e-17}) {
+    EigenPairs pairs = pair_next_to_zero(1);
+    pairs.values[0] = 30, pairs.values[1] = off;
+    std::vector<EigenTrust> trust(2, {0.98 * std::abs(off), 0, true, 1});
+    clear_rounding(pairs, trust);
+    EXPECT_EQ(pairs.values[1], 0.0);
+    EXPECT_GE(trust[1].bound, std::abs(off));
+    pairs.values[1] = off, trust[1].bound = 0.4 * std::abs(off);
+    clear_rounding(pairs, trust);
+    EXPECT_EQ(pairs.values[1], off);
+  }
+}
+
 TEST(eigen_pairs, a_pair_next_to_zero_is_two_zeros) {
   EigenPairs pairs = pair_next_to_zero(1e-33);
   std::vector<EigenTrust> trust(2, {1e-15, 0, true, 1});
