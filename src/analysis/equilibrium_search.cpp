@@ -198,8 +198,16 @@ bool EquilibriumSearch::is_of_this_mechanism() {
 void EquilibriumSearch::search_downhill() {
   op_ = drawn_;
   found_ = descent_.run(op_) && is_of_this_mechanism();
-  lowest_ = descent_.lowest();
+  lowest_ = nearest_ = descent_.lowest();
   held_states_ = descent_.held_states();
+}
+
+void EquilibriumSearch::note_nearest(const OperatingPoint& point) {
+  if (escaped(system_, drawn_, point)) return;
+  equations_.evaluate(nearest_, false);
+  const double force = equations_.force_scale(), before = equations_.merit(force);
+  equations_.evaluate(point, false);
+  if (equations_.merit(force) < before) nearest_ = point;
 }
 
 // Whether no search needs to be made.
@@ -223,6 +231,7 @@ void EquilibriumSearch::descend(OperatingPoint start) {
     found_ = rests && !escaped(system_, drawn_, op_) && is_of_this_mechanism();
     held_states_ = descent.held_states();
     equations_.measure_by(Yardstick::model);
+    if (!rests) note_nearest(descent.lowest());
   };
   op_ = start;
   Descent down(equations_, options_, history_);
@@ -278,19 +287,30 @@ std::optional<OperatingPoint> EquilibriumSearch::near_enough() {
   return std::nullopt;
 }
 
-// A pure integrator that balances at its first value keeps it.
+// A pure integrator that balances at its first value keeps it. Where only combinations of states are free, these do.
 void EquilibriumSearch::keep_first_state(const std::vector<double>& first_state) {
   OperatingPoint kept = op_;
   kept.state = first_state;
   settle(equations_, kept);
   equations_.evaluate(kept, true);
   const auto j = judge(equations_, kept);
-  if (j && j->balanced && j->determined) op_ = std::move(kept);
+  if (j && j->balanced && j->determined) {
+    op_ = std::move(kept);
+    return;
+  }
+  kept = op_;
+  kept.state = first_state;
+  equations_.evaluate(op_, true);
+  auto back = put_back(equations_, op_, kept);
+  if (!back) return;
+  const FirstFreedoms any{*back, std::vector<bool>(static_cast<std::size_t>(equations_.residual().size()), true)};
+  if (Descent(equations_, options_, history_).polish(*back, any)) op_ = *std::move(back);
+  equations_.measure_by(Yardstick::model);
 }
 
 tl::unexpected<Failure> EquilibriumSearch::refused() {
   equations_.measure_by(Yardstick::model);
-  Failure f = static_refusal(equations_, lowest_, proof_, history_.lines());
+  Failure f = static_refusal(equations_, nearest_, proof_, history_.lines());
   if (!descent_.doubt().empty()) f.message += "; " + descent_.doubt();
   if (turned_)
     f.message += fmt::format("; there is one with {} turned over, which no motion leads to", turned_->full_text());

@@ -30,6 +30,7 @@ class EquilibriumSearch {
   void search_by_other_ways();
   void search_from_other_places();
   std::optional<OperatingPoint> near_enough();
+  void note_nearest(const OperatingPoint&);
   void keep_first_state(const std::vector<double>& first_state);
   tl::unexpected<Failure> refused();
   OperatingPoint with_report(OperatingPoint);
@@ -42,6 +43,7 @@ class EquilibriumSearch {
   StaticHistory history_;
   Descent descent_;
   OperatingPoint op_, drawn_, lowest_;
+  OperatingPoint nearest_;  // to rest, of all searches: what a refusal speaks of
   bool found_ = false, held_states_ = false;
   FirstFreedoms loose_;                   // what nothing held to begin with
   const ElementLabel* turned_ = nullptr;  // a joint, by a point that was balanced otherwise

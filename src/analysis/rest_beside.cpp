@@ -17,8 +17,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 constexpr int most_steps = 30;
-constexpr double dependent = 1e-9;  // of motions of unit size
-constexpr double settled = 1e-9;    // of the size of an unknown: steps that become no smaller are rounding from here on
+constexpr double dependent = 1e-9;        // of motions of unit size
+constexpr double free_state_hold = 1e-3;  // in comparable units: each step leaves as much of what it should take away
+constexpr double settled = 1e-9;  // of the size of an unknown: steps that become no smaller are rounding from here on
 
 // An orthonormal basis of motions in units of coordinates.
 Matrix basis_of(const Matrix& motions, const Eigen::VectorXd& size) {
@@ -74,7 +75,7 @@ std::optional<OperatingPoint> rest_beside(const System& system, OperatingPoint o
     if (!equations.residual().allFinite()) return std::nullopt;
     auto step = step_across(equations, B, hold_states);
     if (!step && hold_states == 0) {  // pure integrators have any value
-      hold_states = 1;
+      hold_states = free_state_hold;
       step = step_across(equations, B, hold_states);
     }
     if (!step) return std::nullopt;

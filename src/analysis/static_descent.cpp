@@ -20,6 +20,8 @@ constexpr int patience_with_steps = 40;
 constexpr double near_balance = 1e-9;   // of the forces at play: judged from here on
 constexpr double residual_noise = 100;  // residuals in units of rounding that say nothing
 constexpr double settled_move = 1e-6;   // of the size of an unknown
+// Of Newton's step where states are free, in comparable units: far above rounding, far below what determines a state.
+constexpr double newton_state_hold = 1e-8;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -183,8 +185,11 @@ bool Descent::faded_where_it_is(const RestJudgement& j) const {
 // All of Newton's step but what nothing determines. Unknowns that rounding moves as far as the step does may not be
 // left where they are one by one: those that stiff elements couple them with would move alone.
 Eigen::VectorXd Descent::determined_step(const RestJudgement& j) const {
-  Eigen::VectorXd step = j.newton;
-  if (std::ranges::find(j.indifferent, true) == j.indifferent.end()) return step;
+  if (std::ranges::find(j.indifferent, true) == j.indifferent.end()) return j.newton;
+  return without_undetermined(j.newton);
+}
+
+Eigen::VectorXd Descent::without_undetermined(Eigen::VectorXd step) const {
   const AugmentedSystem& augmented = equations_.augmented();
   const Eigen::VectorXd open = undetermined_part(equations_, step);
   const Eigen::Index states = step.size() - augmented.state(0);
@@ -311,23 +316,30 @@ void Descent::note_move(const Eigen::VectorXd& step, double factor) {
 }
 
 std::optional<Eigen::VectorXd> Descent::solve(double hold) {
-  bool factored = equations_.factor(lu_, equations_.tangent(hold, held_states_));
+  // A state that nothing determines takes its time as everything does on the way down.
+  const double hold_states = std::max(hold, newton_state_hold);
+  bool factored = equations_.factor(lu_, equations_.tangent(hold, held_states_ ? hold_states : 0));
   if (!factored && !held_states_)
-    factored = (held_states_ = true) && equations_.factor(lu_, equations_.tangent(hold, true));
+    factored = (held_states_ = true) && equations_.factor(lu_, equations_.tangent(hold, hold_states));
   if (!factored) return std::nullopt;
   Eigen::MatrixXd step = -equations_.residual();
   lu_.solve(step);
   if (!step.allFinite()) return std::nullopt;
+  // Newton's is the least: where only a combination of states is free, it keeps its value.
+  if (held_states_ && hold == 0) return without_undetermined(step.col(0));
   return Eigen::VectorXd(step.col(0));
 }
 
 // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding
-// decides and the step is taken as it is.
+// decides and the step is taken as it is. So it is where forces are balanced and integrators still have an input, and
+// from there on: no slope tells where that vanishes.
 bool Descent::newton(OperatingPoint& op, double level) {
-  if (transient_ && level >= 1e-3) return false;
+  constexpr double no_slope = 1e-6;
+  inputs_lead_ = held_states_ && (equations_.imbalance() <= no_slope * force_ || (inputs_lead_ && !transient_));
+  if (transient_ && level >= 1e-3 && !inputs_lead_) return false;
   transient_ = true;
   const auto step = solve(0);
-  if (!step || (level >= 1e-6 && equations_.slope(*step) >= 0)) return false;
+  if (!step || (level >= no_slope && !inputs_lead_ && equations_.slope(*step) >= 0)) return false;
   for (const double fraction : {1.0, 0.5, 0.25}) {
     double taken = 0;
     OperatingPoint next = moved(system_, op, equations_.augmented(), *step, fraction, options_.limits, &taken);

@@ -42,6 +42,7 @@ class Descent {
   bool finish_at(OperatingPoint& op, const FirstFreedoms& loose);
   bool rests_put_back(OperatingPoint& op);
   Eigen::VectorXd determined_step(const RestJudgement&) const;
+  Eigen::VectorXd without_undetermined(Eigen::VectorXd step) const;
   bool came_to_rest(const RestJudgement&);
   bool faded_where_it_is(const RestJudgement&) const;
   void note_arrivals();
@@ -60,7 +61,7 @@ class Descent {
   double way_ = 0, first_force_ = 0, lowest_merit_ = std::numeric_limits<double>::infinity();
   double force_ = 0, merit_ = 0, hold_ = 1, before_ = std::numeric_limits<double>::infinity();
   SparseLu lu_;
-  bool held_states_ = false, transient_ = false;
+  bool held_states_ = false, transient_ = false, inputs_lead_ = false;
   // By unknown: the last step that was taken, relative; residuals of the last two iterations in units of rounding; and
   // whether balance came at once from far off, as where a contact opens, and not little by little.
   Eigen::VectorXd move_, excess_, excess_before_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/comparable_scales.h"
+
 namespace dynalin {
 
 StaticEquations::StaticEquations(const System& system)
@@ -281,11 +283,18 @@ double StaticEquations::damping(const Eigen::VectorXd& step) const {
 
 ColumnMatrix StaticEquations::tangent(double hold, double hold_states) const {
   std::vector<double> diagonal(static_cast<std::size_t>(augmented_.size()), 0.0);
-  for (std::int32_t k = 0; k < coordinates_; ++k) diagonal[static_cast<std::size_t>(k)] = hold * holding(k);
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    diagonal[static_cast<std::size_t>(augmented_.state(static_cast<std::int32_t>(k)))] = held_[k] ? 0.0 : hold_states;
+  const auto matrix = [&] {
+    return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state}, {}, held_, diagonal);
+  };
+  if (hold_states > 0) {
+    const ComparableScales scales(matrix());
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+      const std::int32_t at = augmented_.state(static_cast<std::int32_t>(k));
+      if (!held_[k]) diagonal[static_cast<std::size_t>(at)] = hold_states / (scales.row(at) * scales.column(at));
+    }
   }
-  return augmented_.matrix(eq_, rows_, part_.active, {PartialBy::position, PartialBy::state}, {}, held_, diagonal);
+  for (std::int32_t k = 0; k < coordinates_; ++k) diagonal[static_cast<std::size_t>(k)] = hold * holding(k);
+  return matrix();
 }
 
 ColumnMatrix StaticEquations::holding_matrix() const {

@@ -70,8 +70,8 @@ class StaticEquations {
   double slope(const Eigen::VectorXd& step) const;
   double damping(const Eigen::VectorXd& step) const;
 
-  // Partials of the residual with `hold` times a typical stiffness added to the coordinates and `hold_states` to the
-  // states.
+  // Partials of the residual with `hold` times a typical stiffness added to the coordinates, and `hold_states` to the
+  // states in units that make rows and columns comparable: rates may be of any size beside the states.
   ColumnMatrix tangent(double hold, double hold_states) const;
 
   // The metric D, as one for coordinate k: a typical stiffness of the first point that was evaluated with partials.
