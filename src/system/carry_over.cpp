@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
+#include "mechanics/stated_memory_source.h"
 #include "mechanics/stiction_source.h"
 #include "system/carried_past.h"
 #include "system/carried_turns.h"
@@ -72,6 +74,20 @@ Swapped swapped_bristles(const System& from, const System& to) {
   return swapped;
 }
 
+// Entries of the memory that begin as arguments state them which are stated anew.
+std::set<std::size_t> stated_memory(const System& system, const Restated& restated) {
+  std::set<std::size_t> entries;
+  if (restated.empty()) return entries;
+  std::vector<StatedMemory> list;
+  for_each_source<StatedMemorySource>(
+      system, [&](const ElementSet&, const StatedMemorySource& source) { source.stated_memory(list); });
+  for (const StatedMemory& m : list) {
+    const auto holds = [&](std::string_view argument) { return restated.holds(*m.of, argument); };
+    if (std::ranges::any_of(m.arguments, holds)) entries.insert(m.entries.begin(), m.entries.end());
+  }
+  return entries;
+}
+
 // What no element has remembered before begins at the point, and so does what bristles saw from the other end.
 void take_over_memory(const System& from, const OperatingPoint& op, const System& to, const Restated& restated,
                       const Swapped& swapped, OperatingPoint& out) {
@@ -79,10 +95,11 @@ void take_over_memory(const System& from, const OperatingPoint& op, const System
   begun.mode = AnalysisMode::initial_conditions;
   to.remember(begun);
   out.memory = std::move(begun.memory);
+  const std::set<std::size_t> stated = stated_memory(to, restated);
   for (const auto& [a, b] : matches(memory_keys(from.layout()), memory_keys(to.layout()))) {
     const ElementLabel* owner = to.layout().memory_owners[b].element;
     const bool begins = owner && (restated.begins(*owner) || swapped.contains({owner->statement, owner->id}));
-    if (!begins) out.memory[b] = op.memory[a];
+    if (!begins && !stated.contains(b)) out.memory[b] = op.memory[a];
   }
 }
 

@@ -374,6 +374,35 @@ TEST_F(StateEquations, show_at_the_instant_of_a_sample_what_was_before) {
   EXPECT_NEAR(behind[0], 0.7, 1e-12);
 }
 
+// A command that states instants begins them anew, from what is known of the discrete states; no other does.
+TEST_F(StateEquations, are_sampled_when_a_command_says_so) {
+  const std::string model = slider +
+                            "SFORCE/1, TRANSLATION, ACTIONONLY, I=21, J=2, FUNCTION=-50*DX(20,1,1)\n"
+                            "ARRAY/3, Y\nARRAY/5, X\nREQUEST/1, F2=ARYVAL(5,1)\\F3=ARYVAL(5,2)\n"
+                            "GSE/1, NO=2, Y=3, ND=2, XD=5, INTERFACE=::,clock_update,sampled_output, "
+                            "FUNCTION=USER(0,0,0,5), ";
+  struct Case {
+    std::string instants, command;
+    double last, count;
+  };
+  for (const auto& [instants, command, last, count] : {
+           Case{"SAMPLE_PERIOD=1, SAMPLE_OFFSET=0.7", "GSE/1, SAMPLE_OFFSET=0.4", 0.4, 1},
+           // Not before the offset, whatever there was.
+           Case{"SAMPLE_PERIOD=0.1, SAMPLE_OFFSET=0.1", "GSE/1, SAMPLE_OFFSET=0.65", 0.85, 3 + 3},
+           // Where the simulation begins, and then counted from the offset.
+           Case{"SAMPLE_PERIOD=100", "GSE/1, SAMPLE_PERIOD=0.1", 0.8, 1 + 6},
+           Case{"SAMPLE_PERIOD=0.2, SAMPLE_OFFSET=0.1", "PART/2, MASS=3", 0.7, 4},
+       }) {
+    const auto found =
+        requested(with(model + instants + "\n", {"SIMULATE/TRANSIENT, END=0.35, STEPS=1", command,
+                                                 "SIMULATE/TRANSIENT, END=0.88, STEPS=1", "SIMULATE/INITIAL"}),
+                  3);
+    ASSERT_EQ(found.size(), 2u) << command;
+    EXPECT_NEAR(found[0], last, 1e-11) << command;
+    EXPECT_EQ(found[1], count) << command;
+  }
+}
+
 TEST_F(StateEquations, rest_in_statics_unless_they_are_held) {
   const std::string rest = plant + pushed + arrays + read_arrays;
   const std::vector<std::string> statics = {"SIMULATE/STATIC", "SIMULATE/INITIAL"};

@@ -12,6 +12,9 @@
 // last static solution gave them.
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
+
 #include "elements/controls/array.h"
 #include "elements/families/state_equations.h"
 #include "model/model.h"
@@ -24,6 +27,8 @@ namespace dynalin {
 namespace {
 
 constexpr double most_numbers = 10000;  // of one kind
+
+constexpr std::array<std::string_view, 2> schedule_arguments = {"SAMPLE_PERIOD", "SAMPLE_OFFSET"};
 
 struct Gse {
   std::optional<std::int64_t> outputs, states, discrete;
@@ -54,8 +59,16 @@ struct Gse {
        .slot = &E::initial_discrete,
        .help = "ARRAY with the initial discrete states",
        .start = StatedStart::value},
-      {.name = "SAMPLE_PERIOD", .slot = &E::period, .unit = "time", .help = "from one sample to the next"},
-      {.name = "SAMPLE_OFFSET", .slot = &E::offset, .unit = "time", .help = "of the first sample"},
+      {.name = schedule_arguments[0],
+       .slot = &E::period,
+       .unit = "time",
+       .help = "from one sample to the next",
+       .start = StatedStart::alone},
+      {.name = schedule_arguments[1],
+       .slot = &E::offset,
+       .unit = "time",
+       .help = "of the first sample",
+       .start = StatedStart::alone},
       {.name = "IMPLICIT", .slot = &E::implicit, .help = "the routine gives what is zero"},
       {.name = "STATIC_HOLD", .slot = &E::static_hold, .help = "states keep their values in statics"},
       {.name = "STATICS_ONLY", .slot = &E::statics_only, .help = "states and outputs keep theirs but in statics"},
@@ -120,7 +133,8 @@ class GseSet final : public TypedSet<Gse> {
            .sampling = {r.update, e.xd0, r.period.value_or(e.period), e.offset, r.update_name, r.period_name},
            .implicit = e.implicit,
            .held_in_statics = e.static_hold,
-           .in_statics_only = e.statics_only});
+           .in_statics_only = e.statics_only,
+           .schedule_arguments = schedule_arguments});
     }
     return std::make_unique<StateEquationsKernel>(std::move(laws), labels, StateType::gse, layout);
   }

@@ -36,6 +36,8 @@ class Sampling {
   bool sample(const Motion&, Memory&) const;
   // Why there are no values, empty if there are.
   std::string failure(const Motion&) const;
+  // Entries of the memory that say when the next sample is.
+  std::vector<std::int32_t> schedule() const { return {next_kept_, period_kept_}; }
   // What the functions that have given none have to say for it.
   void find_undefined(const Motion&, const ElementLabel& of, UndefinedValues&) const;
 

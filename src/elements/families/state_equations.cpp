@@ -203,4 +203,9 @@ void StateEquationsKernel::act_at_start(const Motion& motion, Memory& memory, Ev
   if (sample(motion, memory)) action.restart = true;
 }
 
+void StateEquationsKernel::stated_memory(std::vector<StatedMemory>& out) const {
+  for (const std::size_t k : sampled_)
+    out.push_back({&(*labels_)[k], elements_[k].law.schedule_arguments, elements_[k].sampling.schedule()});
+}
+
 }  // namespace dynalin

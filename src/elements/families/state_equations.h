@@ -9,6 +9,8 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "elements/families/sampling.h"
@@ -16,6 +18,7 @@
 #include "mechanics/channel_source.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"
+#include "mechanics/stated_memory_source.h"
 
 namespace dynalin {
 
@@ -24,9 +27,10 @@ struct StateEquationsLaw {
   std::vector<double> initial;  // zero where there are fewer
   Sampling::Law sampling;       // of no states where there is none
   bool implicit = false, held_in_statics = false, in_statics_only = false;
+  std::span<const std::string_view> schedule_arguments{};  // that say when samples are taken
 };
 
-class StateEquationsKernel final : public Kernel, public ChannelSource, public EventSource {
+class StateEquationsKernel final : public Kernel, public ChannelSource, public EventSource, public StatedMemorySource {
  public:
   StateEquationsKernel(std::vector<StateEquationsLaw>, const std::vector<ElementLabel>&, StateType, Layout&);
   void bind(Binder&) override;
@@ -46,6 +50,8 @@ class StateEquationsKernel final : public Kernel, public ChannelSource, public E
   void crossings(const Motion&, ExpressionScratch&, SwitchList&) const override;
   void act(const Motion&, std::span<const int> crossed, Memory&, EventAction&) const override;
   void act_at_start(const Motion&, Memory&, EventAction&) const override;
+
+  void stated_memory(std::vector<StatedMemory>&) const override;
 
  private:
   struct Element {
