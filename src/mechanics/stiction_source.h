@@ -20,21 +20,12 @@ struct Stiction {
   std::size_t directions = 0;
 };
 
-// Whose states and memory follow the motion of marker i seen from j.
-struct BristlesBetween {
-  const ElementLabel* of = nullptr;
-  MarkerId i, j;
-  bool opposite_from_other_end = false;  // or else, seen from there, another motion
-};
-
 class StictionSource {
  public:
   // Adds what sticks and bears a load.
   virtual void sticking(const Motion&, std::vector<Stiction>&) const = 0;
   // At a place of a search for an equilibrium: adds a sentence on each element that bears nearly all it can there.
   virtual void exhausted(const Motion&, std::vector<std::string>&) const = 0;
-
-  virtual void surfaces(std::vector<BristlesBetween>&) const {}
 
  protected:
   ~StictionSource() = default;

@@ -90,6 +90,40 @@ std::vector<SavedPoint::Value> values_of(const Json& json) {
   return list;
 }
 
+Json json_of(const std::vector<KnownPair>& pairs) {
+  Json list = Json::array();
+  for (const KnownPair& p : pairs) {
+    Json ends = Json::array(), directions = Json::array();
+    for (const KnownPair::End& e : p.ends)
+      ends.push_back(
+          {{"marker", e.marker}, {"body", json_of(e.body)}, {"at", json_of(e.at)}, {"axis", json_of(e.axis)}});
+    for (const Vector& d : p.directions) directions.push_back(json_of(d));
+    list.push_back({{"of", json_of(p.of)},
+                    {"joint", p.joint},
+                    {"motion", p.motion},
+                    {"ends", std::move(ends)},
+                    {"directions", std::move(directions)},
+                    {"radius", p.radius}});
+  }
+  return list;
+}
+
+std::vector<KnownPair> pairs_of(const Json& json) {
+  std::vector<KnownPair> list;
+  for (const Json& p : json) {
+    KnownPair pair{
+        .of = key_of(p.at("of")), .joint = p.at("joint"), .motion = p.at("motion"), .ends = {}, .directions = {}};
+    pair.radius = p.at("radius");
+    for (std::size_t k = 0; k < pair.ends.size(); ++k) {
+      const Json& end = p.at("ends").at(k);
+      pair.ends[k] = {end.at("marker"), key_of(end.at("body")), vector_of(end.at("at")), vector_of(end.at("axis"))};
+    }
+    for (const Json& d : p.at("directions")) pair.directions.push_back(vector_of(d));
+    list.push_back(std::move(pair));
+  }
+  return list;
+}
+
 Json json_of(const SavedPoint& p) {
   Json bodies = Json::array(), coordinates = Json::array(), states = Json::array(), delays = Json::array();
   for (const SavedPoint::Body& b : p.bodies) {
@@ -126,6 +160,7 @@ Json json_of(const SavedPoint& p) {
           {"multipliers", json_of(p.multipliers)},
           {"values", json_of(p.values)},
           {"states", std::move(states)},
+          {"pairs", json_of(p.pairs)},
           {"memory", json_of(p.memory)},
           {"turns", std::move(turns)},
           {"delays", std::move(delays)}};
@@ -153,6 +188,8 @@ SavedPoint point_of(const Json& json) {
     p.turns.emplace(AngleName{measure, t.at("i"), t.at("j")}, t.at("value"));
   }
   for (const Json& s : json.at("states")) p.states.push_back({key_of(s.at("of")), s.at("value"), s.at("rate")});
+  // A file that was written before they were kept has none.
+  p.pairs = pairs_of(json.value("pairs", Json::array()));
   for (const Json& d : json.at("delays")) {
     SavedPoint::Delay delay{key_of(d.at("of")), d.at("start"), {}};
     for (const Json& i : d.at("instants")) {

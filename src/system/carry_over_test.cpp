@@ -289,34 +289,6 @@ TEST(CarryOver, courses_of_motions_go_on_unless_their_start_is_stated) {
             (std::vector<double>{5, 1}));
 }
 
-// Creep is of I relative to J: the joint with its ends swapped has the opposite one, but for what goes along axes of J.
-TEST(CarryOver, bristles_bend_the_other_way_where_the_ends_of_their_joint_are_swapped) {
-  const auto rubbing = [](const std::string& type, const std::string& ends) {
-    return system_of(part(3) + "JOINT/1, " + type + ", " + ends + "\nFRICTION/4, JOINT=1\n");
-  };
-  const std::string drawn = "I=30, J=1", swapped = "I=1, J=30";
-  for (const std::string type : {"TRANSLATIONAL", "REVOLUTE", "CYLINDRICAL"}) {
-    const auto from = rubbing(type, drawn);
-    OperatingPoint op = from->drawn();
-    for (std::size_t k = 0; k < op.state.size(); ++k) op.state[k] = 1e-3 * static_cast<double>(k + 1);
-    op.state_rate = op.state;
-    ASSERT_FALSE(op.state.empty()) << type;
-    const OperatingPoint same = carried_over(*from, op, *rubbing(type, drawn));
-    EXPECT_EQ(same.state, op.state) << type;
-    const OperatingPoint now = carried_over(*from, op, *rubbing(type, swapped));
-    for (std::size_t k = 0; k < op.state.size(); ++k) {
-      EXPECT_EQ(now.state.at(k), -op.state[k]) << type << k;
-      EXPECT_EQ(now.state_rate.at(k), -op.state[k]) << type << k;
-      // What equilibria go on from.
-      EXPECT_EQ(now.memory.at(10 + k), -op.state[k]) << type << k;
-    }
-  }
-  const auto ball = rubbing("SPHERICAL", drawn);
-  OperatingPoint op = ball->drawn();
-  op.state = {1e-3, 2e-3, 3e-3};
-  EXPECT_EQ(carried_over(*ball, op, *rubbing("SPHERICAL", swapped)).state, (std::vector<double>{0, 0, 0}));
-}
-
 // Where no course is known, it begins with the displacement and the velocity at hand, angles but for whole turns.
 TEST(CarryOver, a_motion_that_joins_a_run_goes_on_with_what_it_finds) {
   const std::string hinged = part(3) + "JOINT/1, REVOLUTE, I=30, J=1\n";

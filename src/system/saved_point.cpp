@@ -58,6 +58,9 @@ class Restorer {
   void begin_anew(const std::vector<AngleName>& angles) {
     for (const AngleName& a : angles) restored_.not_saved.push_back(a.text());
   }
+  void begin_anew(const std::vector<std::string>& elements) {
+    restored_.not_saved.insert(restored_.not_saved.end(), elements.begin(), elements.end());
+  }
   void restore_pasts(const std::vector<SavedPoint::Delay>& saved, const std::vector<EntryKey>& calls) {
     std::vector<DelayHistory> histories;
     for (const SavedPoint::Delay& d : saved) histories.push_back(DelayHistory::of(d.start, d.instants));
@@ -116,6 +119,7 @@ SavedPoint saved_point(const System& system, const OperatingPoint& op) {
   keys = state_keys(layout);
   for (std::size_t k = 0; k < keys.size(); ++k)
     saved.states.push_back({std::move(keys[k]), op.state[k], op.state_rate[k]});
+  saved.pairs = known_pairs(system, op);
   if (op.delays) {
     keys = delay_keys(layout);
     for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -176,6 +180,9 @@ RestoredPoint restored_point(const SavedPoint& saved, const System& system) {
     op.state[k] = from.value, op.state_rate[k] = from.rate;
     return true;
   });
+  const ChangedPairs changed = take_over_pairs(saved.pairs, system, op);
+  restorer.begin_anew(changed.anew);
+  begin_as_found(system, changed.found, op);
   if (!saved.delays.empty()) restorer.restore_pasts(saved.delays, delay_keys(layout));
   return std::move(restorer).finish();
 }

@@ -7,6 +7,7 @@
 
 #include "mechanics/delay_history.h"
 #include "model/restated.h"
+#include "system/carried_pairs.h"
 #include "system/carried_turns.h"
 #include "system/entry_keys.h"
 #include "system/system.h"
@@ -47,7 +48,8 @@ struct SavedPoint {
   std::vector<Value> multipliers, values, memory;
   KnownTurns turns;
   std::vector<State> states;
-  std::vector<Delay> delays;  // none before anything has moved in time
+  std::vector<KnownPair> pairs;  // that states tell of
+  std::vector<Delay> delays;     // none before anything has moved in time
 };
 
 SavedPoint saved_point(const System&, const OperatingPoint&);

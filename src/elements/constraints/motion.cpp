@@ -12,7 +12,7 @@
 //
 // s and s′ are courses (DifferentialState::course_of_motion): integrated as the model moves in time. A linear model is
 // taken at one instant and holds them: no state belongs to the motion. Where neither ICDISP nor ICVEL says so, a motion
-// that joins a run goes on with what it finds.
+// that joins a run goes on with what it finds, and so does one that a command lets drive another displacement.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include "elements/constraints/motion_routine.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
+#include "mechanics/pair_state_source.h"
 #include "mechanics/row_terms.h"
 #include "mechanics/wrench_source.h"
 
@@ -101,7 +102,7 @@ struct PrescribedMotion {
   }
 };
 
-class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSource {
+class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSource, public PairStateSource {
  public:
   MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : labels_(&labels) {
@@ -161,6 +162,15 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
       const double to = d.course >= 0 ? state(d.course, motion) : d.function.value(motion, scratch);
       row.size = std::abs(to);
       if (is_angle(d.element.kind)) row.driven_angle = to;
+    }
+  }
+
+  void pair_states(const Motion&, std::vector<PairStates>& out) const override {
+    for (std::size_t k = 0; k < driven_.size(); ++k) {
+      const PrescribedMotion& e = driven_[k].element;
+      if (driven_[k].course < 0) continue;
+      out.push_back(
+          {.of = &(*labels_)[k], .motion = e.kind_text(), .ends = {{{e.i, {}, {}}, {e.j, {}, {}}}}, .directions = {}});
     }
   }
 

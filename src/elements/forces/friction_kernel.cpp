@@ -259,11 +259,4 @@ void JointFrictionKernel::take_rounding(const Motion& motion, std::span<const do
   }
 }
 
-void JointFrictionKernel::surfaces(std::vector<BristlesBetween>& out) const {
-  for (std::size_t k = 0; k < placed_.size(); ++k) {
-    const JointFriction& f = *placed_[k].element;
-    out.push_back({&(*labels_)[k], f.i, f.j, f.is_along_common_z()});
-  }
-}
-
 }  // namespace dynalin

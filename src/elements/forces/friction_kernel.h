@@ -9,13 +9,18 @@
 
 #include "elements/forces/evaluated_friction.h"
 #include "mechanics/kernel.h"
+#include "mechanics/pair_state_source.h"
 #include "mechanics/stiction_source.h"
 #include "mechanics/vanishing_source.h"
 #include "mechanics/wrench_source.h"
 
 namespace dynalin {
 
-class JointFrictionKernel final : public Kernel, public WrenchSource, public StictionSource, public VanishingSource {
+class JointFrictionKernel final : public Kernel,
+                                  public WrenchSource,
+                                  public StictionSource,
+                                  public VanishingSource,
+                                  public PairStateSource {
  public:
   JointFrictionKernel(const std::vector<JointFriction>&, const std::vector<ElementLabel>&, Layout&);
   void bind(Binder&) override;
@@ -28,7 +33,7 @@ class JointFrictionKernel final : public Kernel, public WrenchSource, public Sti
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;
   void exhausted(const Motion&, std::vector<std::string>&) const override;
-  void surfaces(std::vector<BristlesBetween>&) const override;
+  void pair_states(const Motion&, std::vector<PairStates>&) const override;
   void vanishing(const Motion&, const Layout&, std::vector<VanishingSize>&) const override;
   void take_rounding(const Motion&, std::span<const double>, Memory&) const override;
 
