@@ -32,6 +32,7 @@ constexpr double just_beyond = 1e-6;     // of the whole time
 constexpr double least_limit_of_moves =
     1e-8;  // of points that are made consistent, in lengths of the model and radians
 constexpr int steps_held_by_rounding = 500;
+constexpr double same_instant = 1e-12;   // of the whole time
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
@@ -296,7 +297,10 @@ class Dynamics {
       action.add(next);
     }
     if (!anew) watch_point();
-    const bool output = action.output || action.ends();
+    // An output of this instant is there already, unless something jumps in it.
+    const bool is_told =
+        !action.restart && std::abs(point_.time - last_output_.time) <= same_instant * tolerance_.duration;
+    const bool output = (action.output || action.ends()) && !is_told;
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
     if (action.output_step) change_outputs(*action.output_step);

@@ -86,6 +86,20 @@ TEST(DynamicsWithEvents, writes_where_a_sensor_says_and_changes_the_time_between
   EXPECT_EQ(r.end.end, SimulationEnd::reached);
 }
 
+// Where a sensor triggers at an instant of output, which is one, unless what is put out jumps there.
+TEST(DynamicsWithEvents, hands_out_once_what_is_due_for_two_reasons) {
+  const auto times = [](const std::string& sensor, const std::string& value) {
+    return lead(decay + "SENSOR/1, FUNCTION=TIME, GE, VALUE=" + value + ", " + sensor + "\n", 0.6, 0.6 / 6).outputs;
+  };
+  for (const std::string value : {"0.1", "0.2", "0.3", "0.4", "0.5"}) {
+    const std::size_t before = std::stoul(value.substr(2)) + 1;
+    EXPECT_EQ(times("RETURN", value).size(), before) << value;
+    EXPECT_EQ(times("HALT", value).size(), before) << value;
+    EXPECT_EQ(times("PRINT", value).size(), 7) << value;
+    EXPECT_EQ(times("PRINT, EVALUATE=3", value).size(), 8) << value;
+  }
+}
+
 TEST(DynamicsWithEvents, a_sensor_whose_condition_holds_ends_it_at_once) {
   const Led r = lead(decay + "SENSOR/1, FUNCTION=DIF(1), VALUE=0.5, GE, RETURN\n", 5, 1);
   EXPECT_EQ(r.end.point.time, 0);
