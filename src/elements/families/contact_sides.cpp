@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/families/common_frame.h"
 #include "elements/families/markers.h"
 #include "geometry/contact_shape.h"
 #include "geometry/frustum_touch.h"
@@ -81,7 +82,7 @@ bool place(const Model& model, const ElementLabel& label, const std::vector<List
           "contact-shape", l.at,
           fmt::format("{} names {}, {}, which nothing can touch", label.text(), model.label(l.graphics).text(), what),
           "solids, files of facets that bound one, PLANE and POINT can be touched, or in a plane CURVE, CIRCLE, ARC, "
-          "OUTLINE and POINT");
+          "OUTLINE and POINT, all of each on one node where the body deforms");
       return false;
     }
     const Marker& marker = model.marker(shape->marker);
@@ -93,15 +94,16 @@ bool place(const Model& model, const ElementLabel& label, const std::vector<List
       continue;
     }
     const MarkerPlace& at = model.marker(first).place;
-    if (place.body != at.body || place.shapes || at.shapes) {
-      const bool flexible = place.body == at.body;
-      diagnostics.error(flexible ? "contact-shape" : "foreign-marker", l.at,
-                        flexible ? fmt::format("{} of {} stands on a body that changes its shape, beside others",
-                                               model.label(l.graphics).text(), label.text())
-                                 : fmt::format("{} is on {}, the first shape of this side of {} on {}",
-                                               model.label(l.graphics).text(), model.body(place.body).label.text(),
-                                               label.text(), model.body(at.body).label.text()),
-                        flexible ? "a CONTACT for each of them" : "a CONTACT for each pair of bodies");
+    if (!move_as_one(model, shape->marker, first)) {
+      const bool other_node = on_one_body(model, shape->marker, first);
+      const std::string body = model.body(at.body).label.text();
+      diagnostics.error(other_node ? "contact-shape" : "foreign-marker", l.at,
+                        other_node ? fmt::format("{} is on another node of {} than the first shape of this side of {}",
+                                                 model.label(l.graphics).text(), body, label.text())
+                                   : fmt::format("{} is on {}, the first shape of this side of {} on {}",
+                                                 model.label(l.graphics).text(), model.body(place.body).label.text(),
+                                                 label.text(), body),
+                        other_node ? "a CONTACT for each node" : "a CONTACT for each pair of bodies");
       return false;
     }
     const Frame<double> from_first{transpose_times(at.R_BM, place.p_BM - at.p_BM),

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elements/constraints/curve.h"
+#include "elements/families/common_frame.h"
 #include "elements/graphics/types.h"
 
 namespace dynalin::drawing {
@@ -90,8 +91,8 @@ std::optional<ContactShape> OutlineOf::contact_shape(const Model& model, std::st
   double height = 0, size = 0;
   for (const MarkerId m : points) {
     const MarkerPlace& place = model.marker(m).place;
-    if (place.body != first.body || place.shapes) {
-      why = "an OUTLINE on several bodies or on one that changes its shape";
+    if (!move_as_one(model, m, points.front())) {
+      why = "an OUTLINE on several bodies or on several nodes of one";
       return std::nullopt;
     }
     Vector p = transpose_times(first.R_BM, place.p_BM - first.p_BM);

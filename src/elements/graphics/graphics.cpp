@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "elements/families/common_frame.h"
 #include "elements/graphics/types.h"
 #include "geometry/shape_source.h"
 
@@ -237,6 +238,14 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
   std::optional<ContactShape> facets(std::size_t k, const Model& model, std::string& why) const {
     const std::vector<MarkerId> markers = drawings_[k]->markers();
     if (markers.empty() || !sound[k]) return std::nullopt;
+    // One end of a LINK may be on another body: the link is on that of the first.
+    const auto bends = [&](MarkerId m) {
+      return on_one_body(model, m, markers.front()) && !move_as_one(model, m, markers.front());
+    };
+    if (std::ranges::any_of(markers, bends)) {
+      why += fmt::format(" on several nodes of {}", model.body(model.marker(markers.front()).place.body).label.text());
+      return std::nullopt;
+    }
     std::vector<Pose> poses;
     for (const Body& b : model.bodies) poses.push_back(b.pose);
     std::vector<Shape> shapes;

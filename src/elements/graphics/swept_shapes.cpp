@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/families/common_frame.h"
 #include "elements/graphics/checks.h"
 #include "elements/graphics/types.h"
 #include "geometry/plate.h"
@@ -52,7 +53,7 @@ void Plate::check(const Model& model, const ElementLabel& label, Diagnostics& di
   const BodyId body = model.marker(corners.front()).place.body;
   for (const MarkerId m : corners) {
     const Marker& marker = model.marker(m);
-    if (marker.place.body == body) continue;
+    if (on_one_body(model, m, corners.front())) continue;
     diagnostics.error("foreign-marker", label.at,
                       fmt::format("{} is a corner of {} and must be on {} as the first one is", marker.label->text(),
                                   label.text(), model.body(body).label.text()));
