@@ -116,5 +116,25 @@ TEST(ContactOfNodes, one_shape_is_on_one_node) {
   }
 }
 
+// The mass of a node is that of its body: the damping is that of a rigid body of this mass.
+TEST(ContactOfNodes, masses_of_poisson_are_those_of_whole_bodies) {
+  const std::string poisson = "POISSON, PENALTY=1E4, RESTITUTION_COEFFICIENT=.5";
+  const auto force = [&](const std::string& text) {
+    const auto system = system_of(text + contact(1, "IGEOM=2", poisson) + "VARIABLE/1, FUNCTION=CONTACT(1,0,4,1)\n");
+    Findings findings;
+    const auto start = initial_conditions(*system, findings);
+    if (!start) throw std::runtime_error(start.error().message);
+    for (std::size_t k = 0; k < system->layout().algebraic.size(); ++k)
+      if (system->layout().algebraic[k].owner->statement == "VARIABLE") return start->algebraic[k];
+    return 0.0;
+  };
+  const double rigid = force(
+      "PART/2, MASS=.8, CM=22, IP=1,1,1, QG=1,0,.09, VZ=-.5\nMARKER/22\n"
+      "GRAPHICS/1, PLANE, RM=1, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\n" +
+      ball(2, 22));
+  EXPECT_GT(rigid, 1e4 * 0.36);
+  EXPECT_NEAR(force(beam(ball(2, 22))), rigid, 1e-9 * rigid);
+}
+
 }  // namespace
 }  // namespace dynalin::system_test::contact_nodes_test

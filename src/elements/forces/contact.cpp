@@ -294,19 +294,30 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
            !std::holds_alternative<solid::Ball>(shapes[0].side.shape);
   }
 
+  // Of all that the statement of the body stands for: nodes of an FE_PART have shares of its mass.
+  static double mass_of(const Model& model, BodyId id) {
+    const Body& one = model.body(id);
+    if (one.listed.role != BodyRole::nodal) return one.mass;
+    double sum = 0;
+    for (const Body& b : model.bodies)
+      if (b.label.statement == one.label.statement && b.label.id == one.label.id) sum += b.mass;
+    return sum;
+  }
+
   void finish_poisson(const Model& model, std::size_t k, Diagnostics& diagnostics) {
     double inverse = 0;
     for (const MarkerId m : {forces_[k].i, forces_[k].j}) {
       const BodyId body = model.marker(m).place.body;
       if (body == ground_body) continue;
-      if (!(model.body(body).mass > 0)) {
+      const double mass = mass_of(model, body);
+      if (!(mass > 0)) {
         diagnostics.error("contact-without-mass", labels[k].at,
                           fmt::format("POISSON of {} needs the mass of {}, which has none", labels[k].text(),
                                       model.body(body).label.text()),
                           "IMPACT states its damping itself");
         return;
       }
-      inverse += 1 / model.body(body).mass;
+      inverse += 1 / mass;
     }
     Pressure& p = forces_[k].pressure;
     if (elements[k].restitution && inverse > 0)
