@@ -299,7 +299,7 @@ class Dynamics {
     if (!anew) watch_point();
     // An output of this instant is there already, unless something jumps in it.
     const bool is_told =
-        !action.restart && std::abs(point_.time - last_output_.time) <= same_instant * tolerance_.duration;
+        !action.restart && std::abs(point_.time - last_output_.time) <= same_instant * bounds_.tolerance.duration;
     const bool output = (action.output || action.ends()) && !is_told;
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
