@@ -11,6 +11,7 @@
 #include "dataset/dataset.h"
 #include "nastran/configuration_text.h"
 #include "nastran/directive_values.h"
+#include "nastran/named_elements.h"
 
 namespace dynalin::nastran {
 
@@ -98,9 +99,10 @@ class Reader {
   }
   void take_place(const WrittenItem& item) {
     const std::string name = field(item, "name").value.length ? read_string(field(item, "name").value) : "";
-    const WrittenValue marker = field(item, "marker_id").value.length     ? field(item, "marker_id")
-                                : field(item, "marker_name").value.length ? field(item, "marker_name")
-                                                                          : field(item, "marker_by_name");
+    // With both of them the name says too much, or something else.
+    const WrittenValue marker = field(item, "marker_name").value.length      ? field(item, "marker_name")
+                                : field(item, "marker_by_name").value.length ? field(item, "marker_by_name")
+                                                                             : field(item, "marker_id");
     if (item.block->name == "displacement_output_channel") made_.value.output_channels[name] = marker.value;
     if (item.block->name == "force_input_channel") made_.value.input_channels[name] = marker.value;
   }
@@ -194,10 +196,10 @@ class Reader {
       const auto [found, fresh] = taken.emplace(upper_case(e.suffix), &e);
       const Editable* other = found->second;
       if (fresh) return;
-      // One that is named here and numbered there may be the same.
-      const bool may_be_one =
-          other && other->type == e.type &&
-          (other->id.has_value() != e.id.has_value() || (other->id == e.id && other->name == e.name));
+      // One that is named here and numbered there may be the same, and one that is named by less of its path.
+      const bool named_alike = !other || other->name.ends_with(e.name) || e.name.ends_with(other->name);
+      const bool may_be_one = other && other->type == e.type &&
+                              (other->id.has_value() != e.id.has_value() || (other->id == e.id && named_alike));
       if (!may_be_one)
         error("directive-value", at,
               fmt::format("{} ends the names of {} already", e.suffix,
@@ -248,17 +250,18 @@ class References {
     const ExportOptions& o = c_.options;
     for (std::size_t k = 0; k < o.export_markers_by_id.size(); ++k) {
       const IdRange& range = o.export_markers_by_id[k];
-      if (range.first == range.last) marker(range.first, c_.export_markers_by_id[k]);
+      if (range.first == range.last) take(marker_of_id(model_, range.first), c_.export_markers_by_id[k]);
       for (const Marker& m : model_.markers) {
         if (range.first < range.last && m.floating && m.label->id >= range.first && m.label->id <= range.last)
           floating(m, c_.export_markers_by_id[k]);
       }
     }
     for (std::size_t k = 0; k < o.export_markers_by_name.size(); ++k)
-      marker(o.export_markers_by_name[k], c_.export_markers_by_name[k]);
+      take(marker_of_name(model_, o.export_markers_by_name[k]), c_.export_markers_by_name[k]);
     for (const OutputChannel& channel : o.displacement_output_channel)
-      of_channel(channel, c_.output_channels.at(channel.name));
-    for (const InputChannel& channel : o.force_input_channel) of_channel(channel, c_.input_channels.at(channel.name));
+      take(marker_of_channel(model_, channel), c_.output_channels.at(channel.name));
+    for (const InputChannel& channel : o.force_input_channel)
+      take(marker_of_channel(model_, channel), c_.input_channels.at(channel.name));
     for (std::size_t k = 0; k < o.force_editable.size(); ++k) element(o.force_editable[k], c_.force_editable[k]);
     for (std::size_t k = 0; k < o.flexbody_editable.size(); ++k) {
       Editable body = o.flexbody_editable[k];
@@ -268,56 +271,25 @@ class References {
   }
 
  private:
-  void unknown(const Span& at, std::string message, std::string hint = {}) {
-    diagnostics_.error("unknown-element", at, std::move(message), std::move(hint));
-  }
   void floating(const Marker& m, const Span& at) {
     diagnostics_.error("floating-marker", at,
                        fmt::format("{} is floating and cannot be exported", m.label->full_text()));
   }
-  void of_channel(const ChannelMarker& channel, const Span& at) {
-    if (channel.marker_id)
-      marker(*channel.marker_id, at);
-    else
-      marker(channel.marker_name, at);
-  }
-  void marker(std::int64_t id, const Span& at) {
-    const auto found = id > 0 ? model_.find_marker(id) : std::nullopt;
-    if (!found) return unknown(at, fmt::format("MARKER/{} does not exist", id));
-    if (model_.marker(*found).floating) floating(model_.marker(*found), at);
-  }
-  void marker(const std::string& name, const Span& at) {
-    const auto found =
-        std::ranges::find_if(model_.markers, [&](const Marker& m) { return m.label->view_name == name; });
-    if (found != model_.markers.end()) {
-      if (found->floating) floating(*found, at);
-      return;
-    }
-    std::vector<std::string_view> names;
-    for (const Marker& m : model_.markers) {
-      if (!m.label->view_name.empty()) names.push_back(m.label->view_name);
-    }
-    const std::string_view near = nearest_word(name, names);
-    unknown(at, fmt::format("no marker has the name {}", name),
-            near.empty() ? "names are those of adams_view_name comments" : fmt::format("{} exists", near));
+  void refuse(const NameProblem& p, const Span& at) { diagnostics_.error(p.code, at, p.message, p.hint); }
+  void take(const Named<MarkerId>& found, const Span& at) {
+    if (!found)
+      refuse(found.error(), at);
+    else if (model_.marker(*found).floating)
+      floating(model_.marker(*found), at);
   }
   void element(const Editable& e, const Span& at) {
     std::string statement = e.type;
     for (char& c : statement) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-    if (e.id) {
-      if (!model_.find(statement, *e.id) && !model_.find_body(statement, *e.id))
-        unknown(at, fmt::format("{}/{} does not exist", statement, *e.id));
-      return;
+    if (!e.id) {
+      if (const auto found = element_of_name(model_, statement, e.name); !found) refuse(found.error(), at);
+    } else if (!model_.find(statement, *e.id) && !model_.find_body(statement, *e.id)) {
+      refuse({"unknown-element", fmt::format("{}/{} does not exist", statement, *e.id), {}}, at);
     }
-    for (const auto& set : model_.sets) {
-      for (const ElementLabel& label : set->labels) {
-        if (label.statement == statement && label.view_name == e.name) return;
-      }
-    }
-    for (const auto& body : model_.bodies) {
-      if (body.label.statement == statement && body.label.view_name == e.name) return;
-    }
-    unknown(at, fmt::format("no {} has the name {}", statement, e.name), "names are those of adams_view_name comments");
   }
 
   const Configuration& c_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "nastran/named_elements.h"
 #include "nastran/names.h"
 
 namespace dynalin::nastran {
@@ -52,12 +53,13 @@ StudyResult<void> MarkerGrids::add_asked(Diagnostics& remarks) {
 }
 
 StudyResult<void> MarkerGrids::add_by_name(std::string_view name, Diagnostics& remarks) {
-  const auto& markers = system_.model().markers;
-  const auto found = std::ranges::find_if(markers, [&](const Marker& m) { return m.label->view_name == name; });
-  if (found == markers.end()) return refuse(fmt::format("no marker has the name {}", name), remarks);
-  if (found->floating)
-    return refuse(fmt::format("{} is floating and cannot be exported", found->label->full_text()), remarks);
-  grid_of({static_cast<std::int32_t>(found - markers.begin())}, Axes::local);
+  const Model& model = system_.model();
+  const auto found = marker_of_name(model, name);
+  if (!found) return refuse(found.error().message, remarks);
+  const Marker& marker = model.marker(*found);
+  if (marker.floating)
+    return refuse(fmt::format("{} is floating and cannot be exported", marker.label->full_text()), remarks);
+  grid_of(*found, Axes::local);
   return {};
 }
 
@@ -66,20 +68,10 @@ StudyResult<MarkerId> MarkerGrids::marker_of(const ChannelMarker& at, const std:
   const auto fail = [&](const std::string& why) {
     return tl::unexpected(StudyFailure({"export", fmt::format("channel {}: {}", channel, why), {}}));
   };
-  MarkerId marker;
-  if (at.marker_id) {
-    const auto found = model.find_marker(*at.marker_id);
-    if (!found) return fail(fmt::format("MARKER/{} does not exist", *at.marker_id));
-    marker = *found;
-  } else {
-    const auto found =
-        std::ranges::find_if(model.markers, [&](const Marker& m) { return m.label->view_name == at.marker_name; });
-    if (at.marker_name.empty() || found == model.markers.end())
-      return fail(fmt::format("no marker has the name {}", at.marker_name));
-    marker = {static_cast<std::int32_t>(found - model.markers.begin())};
-  }
-  if (model.marker(marker).floating) return fail(model.marker(marker).label->full_text() + " is floating");
-  return marker;
+  const auto marker = marker_of_channel(model, at);
+  if (!marker) return fail(marker.error().message);
+  if (model.marker(*marker).floating) return fail(model.marker(*marker).label->full_text() + " is floating");
+  return *marker;
 }
 
 StudyResult<void> MarkerGrids::add_channels(Diagnostics& remarks) {

@@ -8,6 +8,7 @@
 
 #include "dataset/characters.h"
 #include "mechanics/wrench_source.h"
+#include "nastran/named_elements.h"
 #include "nastran/names.h"
 
 namespace dynalin::nastran {
@@ -39,19 +40,19 @@ StudyResult<void> OpenForces::refuse(std::string message, Diagnostics& remarks) 
 StudyResult<void> OpenForces::take_suffix(const Editable& wanted, std::string_view type, Diagnostics& remarks) {
   const std::string statement = upper_case(type);
   const std::string name = wanted.id ? fmt::format("{}/{}", statement, *wanted.id) : wanted.name;
+  std::int64_t id = wanted.id.value_or(0);
+  if (!wanted.id) {
+    const auto label = element_of_name(system_.model(), statement, wanted.name);
+    if (!label) return refuse(label.error().message, remarks);
+    id = (*label)->id;
+  }
   const ElementLabel* found = nullptr;
   for (const auto& set : system_.model().sets) {
     if (set->kind().statement != statement || !set->active) continue;
-    const auto label = std::ranges::find_if(set->labels, [&](const ElementLabel& l) {
-      return wanted.id ? l.id == *wanted.id : !l.view_name.empty() && l.view_name == wanted.name;
-    });
+    const auto label = std::ranges::find(set->labels, id, &ElementLabel::id);
     if (label != set->labels.end()) found = &*label;
   }
-  if (!found) {
-    return refuse(wanted.id ? fmt::format("{} does not exist", name)
-                            : fmt::format("no {} has the name {}", statement, wanted.name),
-                  remarks);
-  }
+  if (!found) return refuse(fmt::format("{} does not exist", name), remarks);
   const bool plain = !wanted.suffix.empty() && std::ranges::all_of(wanted.suffix, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0;
   });

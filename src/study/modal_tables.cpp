@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "model/view_names.h"
 
 namespace dynalin {
 
@@ -13,19 +14,11 @@ namespace {
 using Row = ModalTable::Row;
 using Markers = std::span<const MarkerId>;
 
-// Whether a name is that of something in another: car.arm.cm in car.arm.
-bool is_below(std::string_view name, std::string_view owner) {
-  return name.size() > owner.size() && name.starts_with(owner) && name[owner.size()] == '.';
-}
-
 template <class T>
 Row row_of(const ModalRow<T>& from) {
   const ElementLabel& label = *from.element;
   Row row{label.element(), from.part, std::string(label.view_name), {}, {}};
-  row.full_name = row.name;
-  if (from.carrier && !row.name.empty() && !from.carrier->view_name.empty() &&
-      !is_below(row.name, from.carrier->view_name))
-    row.full_name = fmt::format("{}.{}", from.carrier->view_name, row.name);
+  row.full_name = view_path({}, from.carrier ? from.carrier->view_name : std::string_view{}, row.name);
   return row;
 }
 
@@ -44,27 +37,11 @@ std::vector<Row> plain(const std::vector<ModalRow<std::complex<double>>>& from) 
   return rows;
 }
 
-// What a title "Adams View model name: car" says, nothing where it says something else.
-std::string_view model_name(std::string_view title) {
-  constexpr std::string_view before = "VIEW MODEL NAME:";
-  const auto found = std::search(title.begin(), title.end(), before.begin(), before.end(),
-                                 [](char t, char b) { return std::toupper(static_cast<unsigned char>(t)) == b; });
-  if (found == title.end()) return {};
-  std::string_view name = title.substr(static_cast<std::size_t>(found - title.begin()) + before.size());
-  while (name.starts_with(' ')) name.remove_prefix(1);
-  while (name.ends_with(' ')) name.remove_suffix(1);
-  return name;
-}
-
-// Names of View, which have the part a marker is on, with the model before them where its name is known. Names may hold
-// dots of their own: SPRING_1.sforce.
+// Names in full where that of the model is known, else the names alone.
 void name_in_full(std::string_view of_model, std::vector<Row>& rows) {
   for (Row& row : rows) {
-    if (row.name.empty()) continue;
-    if (of_model.empty() || is_below(row.name, of_model))
-      row.full_name = row.name;
-    else if (!is_below(row.full_name, of_model))
-      row.full_name = fmt::format("{}.{}", of_model, row.full_name);
+    const bool whole = of_model.empty() || row.name.empty() || is_whole_view_name(of_model, row.name);
+    row.full_name = whole ? row.name : view_path(of_model, {}, row.full_name);
   }
 }
 
@@ -198,7 +175,7 @@ StudyResult<TablesFound> modal_tables(const Linearization& of, const EigenSoluti
                               k + 1,
                               {kind.columns.begin(), kind.columns.end()},
                               kind.rows(distribution, k, markers)});
-      name_in_full(model_name(model.title), found.tables.back().rows);
+      name_in_full(view_model_name(model.title), found.tables.back().rows);
       // Models with flexible bodies have their modal part before the sum.
       ModalTable& table = found.tables.back();
       if (kind.totals && !table.rows.empty() && table.rows.front().values.size() > table.columns.size())

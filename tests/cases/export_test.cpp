@@ -151,6 +151,71 @@ TEST_F(Export, refuses_what_the_model_does_not_have_at_its_place) {
   }
 }
 
+// As many markers are called cm as there are parts.
+std::string named_twice(const std::string& title) {
+  return title +
+         "\nUNITS/SYSTEM=MKS\n! adams_view_name='ground'\nPART/1, GROUND\n! adams_view_name='M'\nMARKER/1\n"
+         "! adams_view_name='arm'\nPART/2, MASS=1, CM=20, IP=1,1,1\n! adams_view_name='cm'\nMARKER/20\n"
+         "! adams_view_name='wheel'\nPART/3, MASS=1, CM=30, IP=1,1,1\n! adams_view_name='cm'\nMARKER/30, QP=1,0,0\n"
+         "! adams_view_name='SPRING_1.sforce'\nSFORCE/1, TRANSLATIONAL, I=30, J=1, FUNCTION=-DM(30,1)\n"
+         "! adams_view_name='SPRING_2.sforce'\nSFORCE/2, TRANSLATIONAL, I=20, J=1, ACTIONONLY, FUNCTION=-DX(20)\n"
+         "BUSHING/1, I=20, J=30, K=1,2,3, KT=1,2,3\nBUSHING/2, I=20, J=1, K=1,2,3, KT=1,2,3\nEND\n";
+}
+
+TEST_F(Export, names_stand_alone_or_with_their_path) {
+  const std::string command = "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck, CONFIG=export.cfg\n";
+  for (const char* name : {"wheel.cm", "car.wheel.cm", ".car.wheel.cm", "car.M", "M", "ground.M", "car.ground.M"}) {
+    write("export.cfg", std::string("export_markers_by_name = ") + name + "\n");
+    EXPECT_EQ(run(named_twice("Adams View model name: car"), command).status, 0) << name;
+  }
+  for (const char* name : {"SPRING_1.sforce", "car.SPRING_1.sforce"}) {
+    write("export.cfg", std::string("force_editable_by_name = sforce, ") + name + ", OWN\n");
+    const RunResult r = run(named_twice("Adams View model name: car"), command);
+    EXPECT_EQ(r.status, 0) << name << r.err;
+    EXPECT_TRUE(r.wrote("deck_KOWN.bdf") || r.wrote("deck_KSOWN.bdf")) << name;
+  }
+  // The marker of the wheel stands at 1, that of the arm at 0.
+  write("export.cfg", "grid_offset = 501\nexport_markers_by_name = wheel.cm\n");
+  EXPECT_EQ(run(named_twice("A car"), "LINEAR/EXPORT, TYPE=CLOSEDBOX, FILE=deck, CONFIG=export.cfg\n").status, 0);
+  EXPECT_THAT(read_file(folder_ / "deck_MODEL.nas"), ::testing::ContainsRegex("GRID\\*? .*1\\.D?0?"));
+}
+
+TEST_F(Export, a_name_that_several_have_is_refused_at_its_place) {
+  const std::string channels =
+      "solution_number = 108\nbegin_frequency = 1\nend_frequency = 9\nsteps_frequency = 8\n"
+      "actuator_swept_sine { name = a }\nforce_input_channel { name = in marker_name = M actuator_name = a }\n"
+      "frequency_response_subcase { number = 1 input_channel_names = in output_channel_names = out }\n";
+  const std::string both = "car.arm.cm (MARKER/20), car.wheel.cm (MARKER/30)";
+  for (const Refused& w : {
+           Refused{"export_markers_by_name = M, cm\n", "OPENBOX",
+                   "export.cfg:1:29: error: cm is the name of 2: " + both},
+           Refused{"export_markers_by_name = car.cm\n", "CLOSEDBOX",
+                   "export.cfg:1:26: error: car.cm is the name of 2: "},
+           Refused{"force_editable_by_name = sforce, sforce, OWN\n", "OPENBOX",
+                   "export.cfg:1:26: error: sforce is the name of 2: car.SPRING_1.sforce (SFORCE/1), "},
+           Refused{channels + "displacement_output_channel { name = out marker_name = cm }\n", "CLOSEDBOX",
+                   "export.cfg:8:56: error: cm is the name of 2: " + both},
+           Refused{channels + "displacement_output_channel { name = out marker_id = 20 marker_name = wheel.cm }\n",
+                   "CLOSEDBOX",
+                   "export.cfg:8:71: error: marker_id is MARKER/20 (cm), and marker_name wheel.cm is MARKER/30 (cm)"},
+           Refused{"export_markers_by_name = Wheel.cm\n", "OPENBOX",
+                   "export.cfg:1:26: error: no marker has the name Wheel.cm"},
+           Refused{"export_markers_by_name = .wheel.cm\n", "OPENBOX", "error: no marker has the name .wheel.cm"},
+       }) {
+    write("export.cfg", w.configuration);
+    const RunResult r = run(named_twice("Adams View model name: car"),
+                            "LINEAR/EXPORT, TYPE=" + w.type + ", FILE=deck, CONFIG=export.cfg\n");
+    EXPECT_EQ(r.status, 1) << w.configuration;
+    EXPECT_THAT(r.err, HasSubstr(w.error));
+  }
+  // Where errors are to be ignored it is left out, and said.
+  write("export.cfg", "ignore_errors = yes\nexport_markers_by_name = M, cm\n");
+  const RunResult r =
+      run(named_twice("Adams View model name: car"), "LINEAR/EXPORT, TYPE=OPENBOX, FILE=deck, CONFIG=export.cfg\n");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("cm is the name of 2: " + both + "; the export goes on without it"));
+}
+
 TEST_F(Export, goes_on_without_what_is_wrong_where_that_is_asked_for) {
   const RunResult r = run_with("ignore_errors = yes\nexport_markers_by_id = 20, 7\nmpc_set = x\n", "CLOSEDBOX");
   ASSERT_EQ(r.status, 0) << r.err;
