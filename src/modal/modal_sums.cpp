@@ -219,9 +219,12 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
                 {},
                 "no-modal-energy"});
   }
+  // Shapes of like size: what a controller moves beside its own states may be small in any unit, and is no rounding.
   ComplexMatrix Phi(n, n);
-  for (Index c = 0; c < n; ++c)
-    Phi.col(c) = modes.vectors(position, static_cast<Index>(chosen[static_cast<std::size_t>(c)]));
+  for (Index c = 0; c < n; ++c) {
+    const auto k = static_cast<Index>(chosen[static_cast<std::size_t>(c)]);
+    Phi.col(c) = modes.vectors(position, k) / shapes.col(k).norm();
+  }
   const Eigen::FullPivLU<ComplexMatrix> lu(unit.cast<Complex>().asDiagonal() * Phi);
   const Eigen::VectorXcd eta = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(x).cast<Complex>()));
   const Eigen::VectorXcd eta_rate = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(v).cast<Complex>()));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -59,8 +61,64 @@ Matrix state_matrix_columns(const PerturbationEquations& p, const std::vector<In
   return columns;
 }
 
+// What entries of the state matrix may be of nothing but rounding: a force along the normal of a plane leaves 1e-17 of
+// itself in it.
+Matrix nothing_but_rounding(const LinearSystem& linear) { return linear.uncertainty + linear.rounding; }
+
+// The same without the state matrix: of some rows, of columns of states that are completed to all unknowns.
+Matrix nothing_but_rounding(const PerturbationEquations& p, const std::vector<Index>& rows, const Matrix& columns) {
+  constexpr double unit = PerturbationEquations::units_of_rounding * std::numeric_limits<double>::epsilon();
+  Matrix units = Matrix::Zero(p.states(), static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) units(rows[k], static_cast<Index>(k)) = 1;
+  const Matrix left = all_unknowns(p.complete_left(units), units).cwiseAbs();
+  Matrix sums = Matrix::Zero(p.unknowns(), columns.cols());
+  for_each_entry(p.products(), [&](std::int32_t r, std::int32_t k, double v) {
+    sums.row(r) += std::abs(v) * columns.row(k).cwiseAbs();
+  });
+  const Matrix variances = left.cwiseAbs2().transpose() * p.rounding_variances(columns);
+  return variances.cwiseSqrt() + unit * (left.transpose() * sums);
+}
+
+// Which columns of the state matrix, of states that are `open`, some rows have more of than rounding. Where there is
+// more the largest entries show it, and few rows are looked at.
+std::vector<Index> seen_by(const PerturbationEquations& p, std::vector<Index> rows, const Matrix& state_matrix,
+                           const std::vector<Index>& open) {
+  const Matrix entries = state_matrix(rows, Eigen::all).cwiseAbs();
+  std::vector<Index> order(rows.size()), seen;
+  std::iota(order.begin(), order.end(), Index{0});
+  for (std::size_t first = 0; first < open.size(); first += columns_at_a_time) {
+    const std::vector<Index> some(
+        open.begin() + static_cast<std::ptrdiff_t>(first),
+        open.begin() + static_cast<std::ptrdiff_t>(std::min(first + columns_at_a_time, open.size())));
+    const auto columns = Eigen::seqN(static_cast<Index>(first), static_cast<Index>(some.size()));
+    Matrix units = Matrix::Zero(p.states(), columns.size());
+    for (std::size_t c = 0; c < some.size(); ++c) units(some[c], static_cast<Index>(c)) = 1;
+    const Matrix completed = all_unknowns(p.complete(units), units);
+    const Eigen::VectorXd largest = entries(Eigen::all, columns).rowwise().maxCoeff();
+    std::ranges::stable_sort(order, std::greater{}, [&](Index r) { return largest(r); });
+    std::vector<bool> is_seen(some.size(), false);
+    for (std::size_t at = 0; at < order.size() && largest(order[at]) > 0; at += columns_at_a_time) {
+      const std::vector<Index> here(
+          order.begin() + static_cast<std::ptrdiff_t>(at),
+          order.begin() + static_cast<std::ptrdiff_t>(std::min(at + columns_at_a_time, order.size())));
+      std::vector<Index> states;
+      for (const Index r : here) states.push_back(rows[static_cast<std::size_t>(r)]);
+      const Matrix rounding = nothing_but_rounding(p, states, completed);
+      for (std::size_t c = 0; c < some.size(); ++c) {
+        const Eigen::VectorXd column = entries(here, static_cast<Index>(first + c));
+        if ((column.array() > rounding.col(static_cast<Index>(c)).array()).any()) is_seen[c] = true;
+      }
+      if (std::ranges::count(is_seen, false) == 0) break;
+    }
+    for (std::size_t c = 0; c < some.size(); ++c) {
+      if (is_seen[c]) seen.push_back(some[c]);
+    }
+  }
+  return seen;
+}
+
 // States that nothing on the way to those marked can see.
-std::vector<Index> without_influence(const Matrix& A, const std::vector<bool>& marked) {
+std::vector<Index> without_influence(const Matrix& A, const Matrix& rounding, const std::vector<bool>& marked) {
   std::vector<bool> seen = marked;
   std::vector<Index> open, others;
   for (Index k = 0; k < A.rows(); ++k) {
@@ -70,7 +128,7 @@ std::vector<Index> without_influence(const Matrix& A, const std::vector<bool>& m
     const Index i = open.back();
     open.pop_back();
     for (Index j = 0; j < A.cols(); ++j) {
-      if (A(i, j) == 0.0 || seen[static_cast<std::size_t>(j)]) continue;
+      if (std::abs(A(i, j)) <= rounding(i, j) || seen[static_cast<std::size_t>(j)]) continue;
       seen[static_cast<std::size_t>(j)] = true;
       open.push_back(j);
     }
@@ -106,7 +164,7 @@ struct OwnSystem {
 OwnSystem own_system(const Matrix& A, const MassRoot& root, const LinearSystem& linear) {
   std::vector<Index> all(static_cast<std::size_t>(A.rows()));
   std::iota(all.begin(), all.end(), Index{0});
-  OwnSystem own{without_influence(A, moving_mass(root, linear, all)), {}};
+  OwnSystem own{without_influence(A, nothing_but_rounding(linear), moving_mass(root, linear, all)), {}};
   own.A = A(own.states, own.states);
   return own;
 }
@@ -137,14 +195,19 @@ OwnSystem own_system(const MassRoot& root, const LinearSystem& linear, const Eig
   for (std::size_t k = 0; k < candidates.size(); ++k) moves[static_cast<std::size_t>(candidates[k])] = of_candidates[k];
   // What the others see of them: those that are seen join the others until none is.
   const Matrix columns = state_matrix_columns(*linear.equations, candidates);
-  for (bool joined = true; joined;) {
-    joined = false;
+  std::vector<Index> others;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    if (moves[k]) others.push_back(static_cast<Index>(k));
+  }
+  while (!others.empty()) {
+    std::vector<Index> open, of_open;
     for (std::size_t c = 0; c < candidates.size(); ++c) {
-      const auto k = static_cast<std::size_t>(candidates[c]);
-      for (std::size_t r = 0; r < states.size() && !moves[k]; ++r) {
-        if (moves[r] && columns(static_cast<Index>(r), static_cast<Index>(c)) != 0.0) moves[k] = joined = true;
-      }
+      if (moves[static_cast<std::size_t>(candidates[c])]) continue;
+      open.push_back(candidates[c]);
+      of_open.push_back(static_cast<Index>(c));
     }
+    others = seen_by(*linear.equations, others, columns(Eigen::all, of_open), open);
+    for (const Index k : others) moves[static_cast<std::size_t>(k)] = true;
   }
   OwnSystem own;
   std::vector<Index> of_columns;
@@ -174,11 +237,20 @@ void clear_still_modes(const System& system, const OperatingPoint& op, const Lin
   const Eigen::VectorXd unit = balancing(A);
   const Matrix own = unit.cwiseInverse().asDiagonal() * A * unit.asDiagonal();
   const Eigen::VectorXd row_size = own.cwiseAbs().rowwise().sum();
+  // A mode with an eigenvalue of its own cannot be mixed with one that moves bodies: what it moves is rounding, however
+  // large that is beside states in units of theirs.
+  const auto alone = [&](std::size_t m) {
+    const std::complex<double> hz = solution.modes[m].eigenvalue_hz;
+    return std::ranges::count_if(solution.modes, [&](const EigenMode& other) {
+             return std::abs(other.eigenvalue_hz - hz) <= 1e-6 * std::abs(hz);
+           }) == 1;
+  };
   for (std::size_t m = 0; m < solution.modes.size(); ++m) {
     auto vector = solution.vectors.col(static_cast<Index>(m));
     const Eigen::VectorXcd all = vector;
     const double motion = all(outer).cwiseAbs().maxCoeff();
-    if (!(motion <= largest_motion * all(inner).cwiseAbs().maxCoeff())) continue;
+    const double own_part = all(inner).cwiseAbs().maxCoeff();
+    if (!(own_part > 0 && (motion <= largest_motion * own_part || alone(m)))) continue;
     const Eigen::VectorXcd w = unit.cwiseInverse().cast<std::complex<double>>().cwiseProduct(all(inner));
     const std::complex<double> lambda = 2 * std::numbers::pi * solution.modes[m].eigenvalue_hz;
     Eigen::VectorXcd residual = lambda * w;

@@ -7,8 +7,8 @@
 
 namespace dynalin {
 
-// Makes those entries zero. The decision is structural: states that influence no mass form a system of their own, and
-// the mode must belong to that one.
+// Makes those entries zero. The decision is structural: states that influence no mass but by the rounding of
+// coefficients form a system of their own, and the mode must belong to that one.
 void clear_still_modes(const System&, const OperatingPoint&, const LinearSystem&, EigenSolution&);
 
 }  // namespace dynalin
