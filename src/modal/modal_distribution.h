@@ -48,7 +48,8 @@ class ModalDistribution {
   std::vector<ModalRow<double>> kinetic(std::size_t mode) const;
   // Total X Y Z RX RY RZ in percent of the model, global axes; a missing entry is NaN. Forces follow displacements
   // (strain) or velocities (dissipation) also through other forces, VARIABLEs and algebraic DIFFs. Flexible bodies and
-  // beams have rows with the total alone.
+  // beams have rows with the total alone. Zero is what nothing does; where elements cancel and the model does nothing,
+  // none has a share, and all entries are NaN.
   std::vector<ModalRow<double>> strain(std::size_t mode) const { return force_rows(mode, PartialBy::position); }
   std::vector<ModalRow<double>> dissipation(std::size_t mode) const { return force_rows(mode, PartialBy::damping); }
 

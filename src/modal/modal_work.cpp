@@ -109,9 +109,11 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
   const WrenchWork of_rounding(system_.layout(), family, unclear, algebraic_change(unclear, family),
                                algebraic_size(unclear, family));
   std::vector<ModalRow<double>> rows;
-  double total = 0, parts = 0;
+  double total = 0, parts = 0, of_elements = 0;
   double without_cancellation = 0;  // what the energy would be if no motions cancelled
   double of_unclear = 0;
+  double distance = 1;  // of the bodies from the origin, in lengths of the model
+  for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
   MarkerWrench w;
   for (const std::size_t s : sets_with_rows()) {
     const ElementSet& set = *system_.model().sets[s];
@@ -132,7 +134,12 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
         const bool shown = w.force.components != (k < 3 ? Components::torque : Components::force);
         row.values[1 + k] = shown ? done.along[k] : std::numeric_limits<double>::quiet_NaN();
       }
+      // Others share out what they do without it.
+      for (double& x : row.values) {
+        if (std::abs(x) <= distance * done.rounding) x = 0;
+      }
       total += row.values[0];
+      of_elements += std::abs(row.values[0]);
       rows.push_back(std::move(row));
     }
   }
@@ -140,6 +147,7 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
     for (const ModalRow<double>& row : of_bodies) {
       total += row.values[0];
       parts += std::abs(row.values[0]);
+      of_elements += std::abs(row.values[0]);
       without_cancellation += std::abs(row.values[0]);
     }
     rows.insert(rows.end(), of_bodies.begin(), of_bodies.end());
@@ -147,14 +155,15 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
   }
   // No share of nothing: motions of rigid bodies leave roundings in every element. A spring that is slack but for the
   // rounding_of_motions of its own force, which is that of the places it joins, does work in a turn of the model.
-  double distance = 1;  // of the bodies from the origin, in lengths of the model
-  for (const BodyMotion& b : motion_.bodies) distance = std::max(distance, norm(b.r) / system_.length());
   const double least =
       strain ? 64 * std::numeric_limits<double>::epsilon() * distance : rounding_of_motions * rounding_of_motions;
   const bool nothing = (!strain && (rests(mode, z, u) || parts <= of_unclear)) ||
-                       parts <= least * without_cancellation || std::abs(total) <= rounding_of_motions * parts;
+                       parts <= least * without_cancellation || of_elements <= rounding_of_motions * parts;
+  // Where elements do something and all of them together nothing, there are no shares of it.
+  const bool cancelling = std::abs(total) <= rounding_of_motions * of_elements;
+  const double whole = cancelling ? std::numeric_limits<double>::quiet_NaN() : total;
   for (auto& row : rows) {
-    for (double& x : row.values) x = nothing ? x * 0 : 100 * x / total;
+    for (double& x : row.values) x = nothing ? x * 0 : 100 * x / whole;
   }
   return rows;
 }

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/pair_blocks.h"
+#include "perturbation/roundoff_scales.h"
 
 namespace dynalin {
 
 namespace {
 
 using Complex = std::complex<double>;
+
+// Of coefficients along axes (roundoff_scales.h), and a few more of the sums that are made with them.
+constexpr double rounding_of_sums = (RoundoffScales::along_axes + 9) * std::numeric_limits<double>::epsilon() / 2;
 
 double size_of(const Matrix3& m) { return std::sqrt(trace(m * transpose(m))); }
 // A bound of how much longer it makes a vector, reached by the identity.
@@ -90,6 +95,11 @@ WrenchWork::Done WrenchWork::of(const MarkerWrench& w) const {
 
   Done done;
   done.without_cancellation = moved_size * dF_size + turned_size * dT_size;
+  // What is left where a motion cancels works with the whole of what does not: across a damper the force is rounding
+  // and the motion is not, along one that only goes along both are.
+  constexpr double each = rounding_of_sums;
+  done.rounding = each * (size_of(moved) * dF_size + moved_size * size_of(dF) + size_of(turned) * dT_size +
+                          turned_size * size_of(dT) + each * done.without_cancellation);
   for (std::size_t k = 0; k < 3; ++k) {
     done.along[k] = -0.5 * std::real(std::conj(moved[k]) * dF[k]);
     done.along[3 + k] = -0.5 * std::real(std::conj(turned[k]) * dT[k]);

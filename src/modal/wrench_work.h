@@ -29,6 +29,7 @@ class WrenchWork {
   struct Done {
     std::array<double, 6> along{};    // X Y Z of the force and of the torque
     double without_cancellation = 0;  // the sum of all if no motions cancelled
+    double rounding = 0;              // what roundings of motion and coefficients make of the sum, or of each
   };
   Done of(const MarkerWrench&) const;
 

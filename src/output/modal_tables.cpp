@@ -74,10 +74,15 @@ class Table {
   std::size_t label_width_ = label_width;
 };
 
-bool all_zero(const std::vector<ModalTable::Row>& rows) {
-  return std::all_of(rows.begin(), rows.end(), [](const ModalTable::Row& row) {
-    return std::all_of(row.values.begin(), row.values.end(), [](double x) { return x == 0 || std::isnan(x); });
-  });
+template <class Predicate>
+bool all_values(const std::vector<ModalTable::Row>& rows, const Predicate& is_so) {
+  return std::ranges::all_of(rows, [&](const ModalTable::Row& row) { return std::ranges::all_of(row.values, is_so); });
+}
+// What is said below a table without a share, if anything.
+std::string_view remark_on(const ModalTableKind& kind, const std::vector<ModalTable::Row>& rows) {
+  if (rows.empty()) return kind.totals ? kind.nothing : std::string_view{};
+  if (all_values(rows, [](double x) { return std::isnan(x); })) return kind.no_share;
+  return all_values(rows, [](double x) { return x == 0 || std::isnan(x); }) ? kind.nothing : std::string_view{};
 }
 
 // Degrees; the old format knows 0 to 355 and snaps what is nearly in or out of phase.
@@ -193,8 +198,8 @@ void write_modal_table(std::ostream& out, const ModalTableFormat& format, const 
   const bool complex =
       std::any_of(table.rows.begin(), table.rows.end(), [](const auto& r) { return !r.imaginary.empty(); });
   (complex ? write_shape : kind->totals ? write_shares : write_numbers)(out, format, *kind, table.rows);
-  if (!kind->nothing.empty() && all_zero(table.rows) && (kind->totals || !table.rows.empty()))
-    fmt::print(out, "  {}\n\n", kind->nothing);
+  if (const std::string_view remark = remark_on(*kind, table.rows); !remark.empty())
+    fmt::print(out, "  {}\n\n", remark);
 }
 
 // Numbers always carry their exponent: what is small here is not nothing.

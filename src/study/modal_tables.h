@@ -30,9 +30,10 @@ struct ModalTableKind {
   TableAsked asked = TableAsked::by_numbers_or_frequency;
   std::span<const std::string_view> columns{};  // for complex values a magnitude and a phase each
   std::string_view title{};
-  std::string_view nothing{};  // said where all values are zero
-  bool totals = false;         // the last column sums up the others, and is summed up itself
-  bool short_names = false;    // of statements, four letters
+  std::string_view nothing{};   // said where all values are zero
+  std::string_view no_share{};  // said where there is none, as those of all cancel
+  bool totals = false;          // the last column sums up the others, and is summed up itself
+  bool short_names = false;     // of statements, four letters
   std::vector<ModalTable::Row> (*rows)(const ModalDistribution&, std::size_t mode, std::span<const MarkerId>) = nullptr;
   // Instead of it, of one of all modes.
   StudyResult<TablesOfAllModes> (*of_all)(const Linearization&, const EigenSolution&,

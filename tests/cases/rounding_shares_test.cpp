@@ -7,6 +7,7 @@ namespace dynalin::cases::rounding_shares_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using RoundingShares = ModalSumCases;
 
 // A slider on a plane at odd angles, on springs; a controller pushes it along MARKER/4.
@@ -55,6 +56,75 @@ TEST_F(RoundingShares, a_controller_that_pushes_against_a_guide_moves_no_mass) {
   const std::vector<double> one = sum_of(still), other = sum_of(without);
   ASSERT_EQ(one.size(), 6u);
   for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], other[k], 1e-9 * std::abs(other[k])) << k;
+}
+
+// A point between three springs in one tilted plane: across it no damper does anything.
+const std::string tilted =
+    "Plane\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=1,0.2,0.3\nMARKER/2, QP=-0.3,0.9,0.1\n"
+    "MARKER/3, QP=-0.7,-1.1,-0.4\nPOINT_MASS/2, MASS=1, CM=20, QG=0,0,0\nMARKER/20, POINT_MASS=2\n";
+
+TEST_F(RoundingShares, dampers_across_a_motion_dissipate_nothing) {
+  const RunResult r = run(tilted +
+                              "SPRINGDAMPER/1, TRANSLATIONAL, I=1, J=20, K=100, C=1, LENGTH=0.5\n"
+                              "SPRINGDAMPER/2, TRANSLATIONAL, I=2, J=20, K=120, C=2, LENGTH=0.5\n"
+                              "SPRINGDAMPER/3, TRANSLATIONAL, I=3, J=20, K=90, C=1, LENGTH=0.5\nEND\n",
+                          "LINEAR/EIGENSOL, DISSIPAT=1, TABLE_PRECISION=5\nLINEAR/EIGENSOL, DISSIPAT=2,3\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (const auto& of : r.result(0).at("tables")) {
+    if (of.at("table") != "DISSIPAT") continue;
+    for (const auto& row : of.at("rows")) EXPECT_EQ(row.at("values")[0], 0) << row;
+  }
+  const std::string note = "No element of this table dissipates power in this mode.", text = r.text("model.txt");
+  EXPECT_NE(text.find(note), std::string::npos);
+  EXPECT_EQ(text.find(note), text.rfind(note));  // of the first mode alone
+}
+
+TEST_F(RoundingShares, springs_across_a_motion_store_nothing) {
+  // As long as they are free they hold the point in the plane, and not across it.
+  const RunResult r = run(tilted +
+                              "SPRINGDAMPER/1, TRANSLATIONAL, I=1, J=20, K=100, LENGTH=1.0630145812734649\n"
+                              "SPRINGDAMPER/2, TRANSLATIONAL, I=2, J=20, K=120, LENGTH=0.95393920141694564\n"
+                              "SPRINGDAMPER/3, TRANSLATIONAL, I=3, J=20, K=90, LENGTH=1.3638181696985856\nEND\n",
+                          "LINEAR/EIGENSOL, STRAIN=1, TABLE_PRECISION=5\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("model.txt"), HasSubstr("No element of this table stores energy in this mode."));
+}
+
+// A pair that moves as one has a damper between that moves a billionth as far: its power is the square of that, and no
+// rounding.
+TEST_F(RoundingShares, a_damper_that_hardly_moves_dissipates_all_the_same) {
+  const RunResult r =
+      run("Pair\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=90D,90D,0\nMARKER/3, QP=-1,0,0\n"
+          "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, REULER=90D,90D,0\nPART/3, MASS=1E-8, CM=30, "
+          "IP=1,1,1, QG=1,0,0\nMARKER/30\nMARKER/31, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=21, J=1\nJOINT/2, "
+          "TRANSLATIONAL, I=31, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=3, K=1, LENGTH=1\n"
+          "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=20, K=10, C=0.01, LENGTH=1\nEND\n",
+          "LINEAR/EIGENSOL, DISSIPAT=3, TABLE_PRECISION=9\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.text("model.txt"), Not(HasSubstr("No element of this table dissipates")));
+  for (const auto& of : r.result(0).at("tables")) {
+    if (of.at("table") == "DISSIPAT") {
+      EXPECT_EQ(of.at("rows")[0].at("values")[0], 0);
+      EXPECT_NEAR(of.at("rows")[1].at("values")[0].get<double>(), 100, 1e-9);
+    }
+  }
+}
+
+TEST_F(RoundingShares, dampers_that_cancel_have_no_shares_and_are_not_nothing) {
+  const RunResult r =
+      run("Beside\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=-1,0,0\nMARKER/3, REULER=90D,90D,0\n"
+          "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/22, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=22, J=3\n"
+          "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=14, C=1, LENGTH=1\n"
+          "SFORCE/2, TRANSLATIONAL, ACTIONONLY, I=20, J=3, FUNCTION=VX(20)-4*DX(20)\nEND\n",
+          "LINEAR/EIGENSOL, DISSIPAT=1, STRAIN=1, TABLE_PRECISION=5\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string text = r.text("model.txt");
+  EXPECT_THAT(text, HasSubstr("The powers of these elements cancel in this mode: none has a share."));
+  EXPECT_THAT(text, Not(HasSubstr("No element of this table")));
+  for (const auto& of : r.result(0).at("tables")) {
+    if (of.at("table") != "DISSIPAT") continue;
+    for (const auto& row : of.at("rows")) EXPECT_TRUE(row.at("values")[0].is_null());
+  }
 }
 
 }  // namespace
