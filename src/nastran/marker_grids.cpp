@@ -74,6 +74,17 @@ StudyResult<MarkerId> MarkerGrids::marker_of(const ChannelMarker& at, const std:
   return *marker;
 }
 
+// Why a force along a component of the grid at a marker does nothing, if so.
+std::string MarkerGrids::why_idle(MarkerId m, std::int64_t grid, int dof) const {
+  const std::string marker = system_.layout().marker_label(m).full_text();
+  if (on_ground(m)) return fmt::format("{} is on the ground", marker);
+  const BodyBlock& body = system_.layout().body(system_.layout().marker(m).body);
+  if (dof > 3 && !body.turns()) return fmt::format("{} is on {}, which does not turn", marker, body.label.full_text());
+  const auto at = std::ranges::find(deck_.grids, grid, &Grid::id);
+  const bool held = at != deck_.grids.end() && at->fixed.find(std::to_string(dof)) != std::string::npos;
+  return held ? fmt::format("constraints hold {} there", marker) : std::string{};
+}
+
 StudyResult<void> MarkerGrids::add_channels(Diagnostics& remarks) {
   if (options_.solution_number != 108) return {};
   for (std::size_t k = 0; k < options_.force_input_channel.size(); ++k) {
@@ -84,6 +95,8 @@ StudyResult<void> MarkerGrids::add_channels(Diagnostics& remarks) {
       continue;
     }
     const std::int64_t grid = grid_of(*marker, channel.mode);
+    if (const std::string why = why_idle(*marker, grid, channel.dof); !why.empty())
+      remarks.warning("idle-channel", {}, fmt::format("input channel {} excites nothing: {}", channel.name, why));
     deck_.inputs.push_back({k, grid, channel.mode == Axes::local ? system_of(*marker) : 0});
   }
   for (std::size_t k = 0; k < options_.displacement_output_channel.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,7 @@ class MarkerGrids {
   // Markers by directives. An OPENBOX has all those on bodies anyway. Fails for a marker that does not exist or floats,
   // or leaves it out with a remark if errors are to be ignored.
   StudyResult<void> add_asked(Diagnostics& remarks);
-  // Channels of SOL 108.
+  // Channels of SOL 108, with a remark on each input that excites nothing.
   StudyResult<void> add_channels(Diagnostics& remarks);
 
   // CORD2R along the axes of a marker, made when first wanted.
@@ -38,6 +39,7 @@ class MarkerGrids {
   StudyResult<void> add_by_name(std::string_view name, Diagnostics& remarks);
   StudyResult<MarkerId> marker_of(const ChannelMarker&, const std::string& channel) const;
   bool on_ground(MarkerId) const;
+  std::string why_idle(MarkerId, std::int64_t grid, int dof) const;
 
   const System& system_;
   const Motion& motion_;

@@ -52,6 +52,21 @@ TEST(Response, of_an_oscillator_to_a_force_with_phase_and_delay) {
   }
 }
 
+TEST(Response, of_loads_that_nothing_feels_is_zero_and_said_so) {
+  // About an axis that is held, and along the one that is free.
+  const std::string bulk =
+      oscillator + "FREQ,6,.3\nRLOAD1,2,3,,,1.\nRLOAD1,4,5,,,1.\nMOMENT,3,1,,4.,.5,0.,0.\nFORCE,5,1,,4.,1.,0.,0.\n";
+  const Answer a = answer("FREQ = 6\nDLOAD = 2\nDISP = ALL\n", bulk);
+  EXPECT_EQ(a.cases[0].displacements.norm(), 0);
+  std::size_t said = 0;
+  for (const Diagnostic& d : a.p.diagnostics.items()) {
+    if (d.code != "idle-load") continue;
+    ++said;
+    EXPECT_EQ(d.message, "RLOAD1 2 excites nothing: constraints hold all that its loads act on");
+  }
+  EXPECT_EQ(said, 1u);
+}
+
 TEST(Response, of_subcases_with_cards_for_phases_and_sums_of_loads) {
   const Answer a = answer(
       "FREQ = 6\nSET 9 = 2\nSUBCASE 10\n LABEL = one\n DLOAD = 20\n DISP(PUNCH) = 9\nSUBCASE 11\n DLOAD = 21\n DISP = "

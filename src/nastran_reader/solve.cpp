@@ -123,6 +123,7 @@ Prepared prepare(Deck deck, Diagnostics reading, Purpose purpose) {
   p.equations = assemble(p.deck, *p.points);
   p.elimination = eliminate(p.equations);
   tell_near_redundancy(p, p.diagnostics);
+  tell_idle_loads(p, p.diagnostics);
   if (purpose != Purpose::check) check_undeformed(p, p.diagnostics);
   return p;
 }

@@ -55,6 +55,8 @@ struct ResponseCase {
   Eigen::MatrixXcd displacements;   // freedoms × frequencies, in components of CD
   std::vector<int> points;          // whose displacements the case asks for, increasing
 };
+// Says which dynamic loads do nothing at any frequency, of a deck that is assembled.
+void tell_idle_loads(const Prepared&, Diagnostics&);
 tl::expected<std::vector<ResponseCase>, std::string> solve_response(const Prepared&, Diagnostics&);
 
 }  // namespace dynalin::nastran_reader

@@ -248,6 +248,36 @@ TEST_F(Export, refuses_a_closed_box_where_nothing_can_move) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "deck.dat"));
 }
 
+// --- what is exported and does not do what it looks like ---
+TEST_F(Export, names_input_channels_that_excite_nothing) {
+  const std::string points =
+      "Points\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, REULER=90D,90D,0\nPOINT_MASS/4, MASS=1, CM=40\n"
+      "MARKER/40, POINT_MASS=4\nPART/5, MASS=1, CM=50, IP=1,1,1\nMARKER/50\nMARKER/51, REULER=90D,90D,0\n"
+      "JOINT/1, TRANSLATIONAL, I=51, J=2\nBUSHING/1, I=50, J=1, K=9,9,9\nBUSHING/2, I=40, J=1, K=9,9,9\nEND\n";
+  const auto warnings = [&](int marker, const std::string& dof, const std::string& type) {
+    write("export.cfg",
+          "solution_number = 108\nbegin_frequency = 1\nend_frequency = 9\nsteps_frequency = 8\n"
+          "actuator_swept_sine { name = a }\nforce_input_channel { name = shaker marker_id = " +
+              std::to_string(marker) + " dof = " + dof +
+              " actuator_name = a }\ndisplacement_output_channel { name = out marker_id = 50 }\n"
+              "frequency_response_subcase { number = 1 input_channel_names = shaker output_channel_names = out }\n");
+    const RunResult r = run(points, "LINEAR/EXPORT, TYPE=" + type + ", FILE=deck, CONFIG=export.cfg\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  for (const char* type : {"OPENBOX", "CLOSEDBOX"}) {
+    SCOPED_TRACE(type);
+    EXPECT_THAT(warnings(40, "rx", type),
+                HasSubstr("warning: input channel shaker excites nothing: MARKER/40 is on POINT_MASS/4, which does not "
+                          "turn [idle-channel]"));
+    EXPECT_THAT(warnings(1, "x", type), HasSubstr("input channel shaker excites nothing: MARKER/1 is on the ground"));
+    EXPECT_THAT(warnings(40, "y", type), Not(HasSubstr("excites nothing")));
+    EXPECT_THAT(warnings(50, "x", type), Not(HasSubstr("excites nothing")));
+  }
+  EXPECT_THAT(warnings(50, "ry", "CLOSEDBOX"),
+              HasSubstr("input channel shaker excites nothing: constraints hold MARKER/50 there"));
+}
+
 // --- the manual ---
 TEST_F(Export, has_all_directives_on_its_page_as_they_are) {
   const auto page = element_pages().parent_path() / "nastran.md";
