@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "linear/balanced.h"
 #include "linear/physical_matrices.h"
 #include "modal/mass_root.h"
 #include "perturbation/perturbed_point.h"
@@ -139,25 +141,49 @@ StateMotion motion_of_states(const OperatingPoint& op, const StateChoice& choice
   return motion;
 }
 
+// Of each mode 1/|yᴴx| as EigenMode::condition has it, with states in units in which A is balanced: in others it may be
+// any number.
+Eigen::VectorXd balanced_conditions(const LinearSystem& linear, const EigenSolution& modes) {
+  const Eigen::VectorXcd units = balanced(linear.A).scale.cwiseInverse().cast<Complex>();
+  const auto conjugates = static_cast<Index>(std::ranges::count(modes.modes, false, &EigenMode::is_real));
+  const Index count = modes.vectors.cols();
+  ComplexMatrix all(modes.vectors.rows(), count + conjugates);
+  all.leftCols(count) = modes.vectors;
+  for (Index k = 0, at = count; k < count; ++k) {
+    if (!modes.modes[static_cast<std::size_t>(k)].is_real) all.col(at++) = modes.vectors.col(k).conjugate();
+  }
+  all = units.asDiagonal() * all;
+  all.colwise().normalize();
+  // Left vectors are rows of the inverse.
+  return all.completeOrthogonalDecomposition().pseudoInverse().rowwise().norm().head(count);
+}
+
 // Numbers of modes whose shapes span the coordinates, vibrations before real modes. A shape that differs from earlier
 // ones by no more than rounding of A may have made of it, 1/condition being how near A is to a defective matrix, adds
 // nothing.
-std::vector<std::size_t> spanning(const EigenSolution& modes, const ComplexMatrix& shapes) {
+std::vector<std::size_t> spanning(const LinearSystem& linear, const EigenSolution& modes, const ComplexMatrix& shapes) {
+  constexpr double least = 1e-7, unit = 64 * std::numeric_limits<double>::epsilon();
   std::vector<std::size_t> order, chosen;
   for (const bool real : {false, true}) {
     for (std::size_t k = 0; k < modes.modes.size(); ++k) {
       if (modes.modes[k].is_real == real) order.push_back(k);
     }
   }
+  std::optional<Eigen::VectorXd> conditions;  // where the unbalanced ones decide
+  const auto uncertain = [&](std::size_t k, double beside) {
+    if (modes.modes[k].structural_zero || beside > unit * modes.modes[k].condition) return false;
+    if (!conditions) conditions = balanced_conditions(linear, modes);
+    return !(beside > unit * (*conditions)(static_cast<Index>(k)));
+  };
   ComplexMatrix basis(shapes.rows(), 0);
   for (const std::size_t k : order) {
     if (basis.cols() == shapes.rows()) break;
-    Eigen::VectorXcd v = shapes.col(static_cast<Index>(k));
-    const double size = v.norm();
+    const double size = shapes.col(static_cast<Index>(k)).norm();
+    if (!(size > 0)) continue;
+    Eigen::VectorXcd v = shapes.col(static_cast<Index>(k)) / size;
     for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.adjoint() * v).eval();
-    const double uncertain =
-        modes.modes[k].structural_zero ? 0 : 64 * std::numeric_limits<double>::epsilon() * modes.modes[k].condition;
-    if (!(v.norm() > std::max(1e-7, uncertain) * size)) continue;
+    const double beside = v.norm();
+    if (!(beside > least) || uncertain(k, beside)) continue;
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols(1) = v.normalized();
     chosen.push_back(k);
@@ -210,7 +236,7 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   // Rows by the root of their mass, so that lengths and angles compare.
   const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });
   const ComplexMatrix shapes = unit.cast<Complex>().asDiagonal() * modes.vectors(position, Eigen::all);
-  const std::vector<std::size_t> chosen = spanning(modes, shapes);
+  const std::vector<std::size_t> chosen = spanning(linear, modes, shapes);
   if (static_cast<Index>(chosen.size()) < n) {
     return tl::unexpected(
         Failure{"energies per mode",

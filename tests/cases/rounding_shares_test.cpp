@@ -22,7 +22,7 @@ std::string slider(const std::string& direction, const std::string& state, const
          "DIFF/7, FUNCTION=" +
          state + "\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=4, FUNCTION=" + force + "\nEND\n";
 }
-const std::string along_normal = "1.91,0.81,0.17";
+const std::string along_normal = "1.91,0.81,0.17", aside = "0.3,0.7,0.9";
 
 TEST_F(RoundingShares, a_controller_that_pushes_against_a_guide_moves_no_mass) {
   const std::string still = slider(along_normal, "-0.1*DIF(7)+DX(20)", "-5*DIF(7)"),
@@ -56,6 +56,26 @@ TEST_F(RoundingShares, a_controller_that_pushes_against_a_guide_moves_no_mass) {
   const std::vector<double> one = sum_of(still), other = sum_of(without);
   ASSERT_EQ(one.size(), 6u);
   for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], other[k], 1e-9 * std::abs(other[k])) << k;
+}
+
+TEST_F(RoundingShares, energies_do_not_depend_on_the_units_of_a_controller) {
+  std::vector<std::vector<double>> rows;
+  for (const char* unit : {"1", "1E9", "1E18", "1E-18"}) {
+    const RunResult r =
+        run(slider(aside, std::string("-0.1*DIF(7)+") + unit + "*DX(20)", std::string("-0.1*DIF(7)/") + unit),
+            "LINEAR/EIGENSOL, ENERGY_PER_MODE=ALL, TABLE_PRECISION=9\n");
+    ASSERT_EQ(r.status, 0) << unit << r.err;
+    std::vector<double> all;
+    for (const char* mode : {"1", "4", "5", "Model"}) {
+      for (const double x : row(r.text("model.txt"), "Energies per mode", mode)) all.push_back(x);
+    }
+    rows.push_back(all);
+  }
+  for (const auto& other : rows) {
+    ASSERT_EQ(other.size(), rows[0].size());
+    for (std::size_t k = 0; k < other.size(); ++k)
+      EXPECT_NEAR(other[k], rows[0][k], 1e-7 * std::abs(rows[0][k]) + 1e-9);
+  }
 }
 
 // A point between three springs in one tilted plane: across it no damper does anything.
