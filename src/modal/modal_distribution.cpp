@@ -141,17 +141,15 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
     }
     rows.push_back({&block.label, block.listed.node, {of_cm[0], of_cm[1], of_cm[2], turn[0], turn[1], turn[2]}});
   }
+  // As they stand among the states of the linear model, by type and id.
   const auto& states = system_.layout().states;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    if (!states[k].varies()) continue;
-    // The states of the model follow the coordinates, by type and id.
-    const auto found = std::find_if(solution_.states.begin(), solution_.states.end(), [&](const StateLabel& s) {
-      return s.type == states[k].type && s.element == states[k].owner->id && s.coordinate == states[k].coordinate;
+  for (std::size_t at = solution_.states.size() - solution_.differential_states; at < solution_.states.size(); ++at) {
+    const StateLabel& s = solution_.states[at];
+    const auto of = std::ranges::find_if(states, [&](const DifferentialState& state) {
+      return state.varies() && s.type == state.type && s.element == state.owner->id && s.coordinate == state.coordinate;
     });
-    const bool several = std::count_if(states.begin(), states.end(), [&](const DifferentialState& other) {
-                           return other.owner == states[k].owner;
-                         }) > 1;
-    rows.push_back({states[k].owner, several ? states[k].coordinate : 0, {z(found - solution_.states.begin())}});
+    const bool several = std::ranges::count(states, of->owner, &DifferentialState::owner) > 1;
+    rows.push_back({of->owner, several ? of->coordinate : 0, {z(static_cast<Eigen::Index>(at))}});
   }
   Complex largest = 0;
   for (const auto& row : rows) {

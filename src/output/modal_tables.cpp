@@ -85,9 +85,11 @@ std::string_view remark_on(const ModalTableKind& kind, const std::vector<ModalTa
   return all_values(rows, [](double x) { return x == 0 || std::isnan(x); }) ? kind.nothing : std::string_view{};
 }
 
-// Degrees; the old format knows 0 to 355 and snaps what is nearly in or out of phase.
-double phase_of(const std::complex<double>& v, bool snapped) {
-  double degrees = std::abs(v) == 0 ? 0.0 : std::arg(v) * 180 / std::numbers::pi;
+// Degrees; the old format knows 0 to 355 and snaps what is nearly in or out of phase. What is zero as its magnitude is
+// printed has none.
+double phase_of(const std::complex<double>& v, std::string_view magnitude, bool snapped) {
+  if (magnitude.find_first_of("123456789") == std::string_view::npos) return 0;
+  double degrees = std::arg(v) * 180 / std::numbers::pi;
   if (!snapped) return degrees;
   if (degrees < 0) degrees += 360;
   if (degrees < 5 || degrees >= 355) return 0;
@@ -116,7 +118,8 @@ void write_shape(std::ostream& out, const ModalTableFormat& format, const ModalT
     for (std::size_t k = 0; k < kind.columns.size(); ++k) {
       if (k < row.values.size()) {
         const std::complex<double> v(row.values[k], row.imaginary[k]);
-        cells += t.number(std::abs(v)) + t.number(phase_of(v, old));
+        const std::string size = t.number(std::abs(v));
+        cells += size + t.number(phase_of(v, size, old));
       } else {
         cells += std::string(static_cast<std::size_t>(2 * t.width()), ' ');
       }

@@ -147,5 +147,50 @@ TEST_F(RoundingShares, dampers_that_cancel_have_no_shares_and_are_not_nothing) {
   }
 }
 
+// --- the old format of mode shapes ---
+TEST_F(RoundingShares, what_is_printed_as_zero_has_no_phase) {
+  // The second mass moves 0.003 of the first one, in opposite phase; a damper gives it one of its own.
+  const RunResult r =
+      run("Line\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=1, CM=20, QG=1,0,0\n"
+          "MARKER/20, POINT_MASS=2\nPOINT_MASS/3, MASS=1, CM=30, QG=2,0,0\nMARKER/30, POINT_MASS=3\n"
+          "BUSHING/1, I=20, J=1, K=100,1E4,1E4\nBUSHING/2, I=30, J=1, K=5,1E4,1E4\n"
+          "SPRINGDAMPER/1, TRANSLATIONAL, I=30, J=20, K=0.3, C=0.1, LENGTH=1\nEND\n",
+          "LINEAR/EIGENSOL, COORDS=1,6\nLINEAR/EIGENSOL, COORDS=1,6, TABLE_PRECISION=5\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  std::istringstream in(r.text("model.txt"));
+  std::string line;
+  std::size_t zeros = 0;
+  while (std::getline(in, line) && line.find("e+") == std::string::npos) {
+    if (line.find("POIN/") == std::string::npos && line.find("POINT_MASS/") == std::string::npos) continue;
+    std::istringstream cells(line.substr(line.find('|') + 1));
+    double magnitude = 0, phase = 0;
+    while (cells >> magnitude >> phase) {
+      if (magnitude != 0) continue;
+      ++zeros;
+      EXPECT_EQ(phase, 0) << line;
+    }
+  }
+  EXPECT_GT(zeros, 10u);
+}
+
+TEST_F(RoundingShares, states_stand_in_the_table_as_in_the_linear_model) {
+  const RunResult r =
+      run("States\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nTFSISO/1, X=51, U=52, Y=53, NUM=1, DEN=3,2,1\nARRAY/51, X\n"
+          "ARRAY/52, U, VARIABLES=20\nARRAY/53, Y\nVARIABLE/20, FUNCTION=DIF(2)\n"
+          "DIFF/2, FUNCTION=-2*DIF(2)+DIF(1)\nDIFF/1, FUNCTION=-DIF(1)\nEND\n",
+          "LINEAR/EIGENSOL, COORDS=1\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  std::vector<int> in_table, in_model;
+  for (const auto& of : r.result(0).at("tables")) {
+    if (of.at("table") != "COORDS") continue;
+    for (const auto& row : of.at("rows")) {
+      const std::string element = row.at("element");
+      in_table.push_back(std::stoi(element.substr(element.find('/') + 1)));
+    }
+  }
+  for (const auto& state : r.result(0).at("states")) in_model.push_back(state.at("element"));
+  EXPECT_EQ(in_table, in_model);
+}
+
 }  // namespace
 }  // namespace dynalin::cases::rounding_shares_test
