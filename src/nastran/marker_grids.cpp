@@ -1,6 +1,7 @@
 #include "nastran/marker_grids.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -134,12 +135,29 @@ std::int64_t MarkerGrids::grid_of(MarkerId m, Axes axes) {
   Grid g;
   g.body = deck_.open && !on_ground(m) ? place.body.index - 1 : -1;
   g.name = name_of(label, options_);
-  g.id = id = ids_.take(IdSpace::point, numbered ? options_.marker_offset + label.id : options_.grid_offset);
+  const std::int64_t wanted = numbered ? options_.marker_offset + label.id : options_.grid_offset;
+  g.id = id = ids_.take(IdSpace::point, wanted);
+  // A second grid at one marker cannot have its number as well.
+  const auto count = grids_.count({m.index, Axes::local}) + grids_.count({m.index, Axes::global});
+  if (numbered && id != wanted && count == 1) renumbered_.push_back(fmt::format("{}: GRID {}", label.full_text(), id));
   g.position = motion_.point(place);
   g.displacement_system = axes == Axes::local ? system_of(m) : 0;
   tie_(g, m, axes == Axes::local ? motion_.axes(place) : Matrix3::identity());
   deck_.grids.push_back(std::move(g));
   return id;
+}
+
+void MarkerGrids::warn_of_numbers(Diagnostics& remarks) const {
+  if (renumbered_.empty()) return;
+  constexpr std::size_t most = 6;
+  std::vector<std::string> first(renumbered_.begin(),
+                                 renumbered_.begin() + static_cast<std::ptrdiff_t>(std::min(most, renumbered_.size())));
+  if (renumbered_.size() > most) first.push_back(fmt::format("{} more", renumbered_.size() - most));
+  remarks.warning("taken-number", {},
+                  fmt::format("marker_offset {} and the ids of markers make numbers that other grids have: those after "
+                              "them are taken ({})",
+                              options_.marker_offset, fmt::join(first, ", ")),
+                  "a marker_offset above all other numbers of points");
 }
 
 }  // namespace dynalin::nastran

@@ -28,6 +28,8 @@ class MarkerGrids {
   StudyResult<void> add_asked(Diagnostics& remarks);
   // Channels of SOL 108, with a remark on each input that excites nothing.
   StudyResult<void> add_channels(Diagnostics& remarks);
+  // Says which grids have other numbers than marker_offset and the id of their marker make; when there are all of them.
+  void warn_of_numbers(Diagnostics& remarks) const;
 
   // CORD2R along the axes of a marker, made when first wanted.
   std::int64_t system_of(MarkerId);
@@ -49,6 +51,7 @@ class MarkerGrids {
   Tie tie_;
   std::map<std::int32_t, std::int64_t> systems_;
   std::map<std::pair<std::int32_t, Axes>, std::int64_t> grids_;
+  std::vector<std::string> renumbered_;
 };
 
 }  // namespace dynalin::nastran

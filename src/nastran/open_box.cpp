@@ -48,6 +48,7 @@ class OpenBox {
     OpenForces forces(system_, at_.motion, options_, ids_, deck_, points_, markers_, wrenches_);
     auto done = forces.add(contributions.of_elements(), std::move(of_states), remarks_);
     if (!done) return tl::unexpected(done.error());
+    markers_.warn_of_numbers(remarks_);
     warn_of_few_digits();
     const bool moving = moves(of_);
     if (options_.export_tic_cards || moving) add_velocities();

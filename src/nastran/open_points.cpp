@@ -57,12 +57,29 @@ void OpenPoints::tie(const Grid& grid, BodyId body, std::int64_t of) {
   deck_.rigid_elements.push_back(std::move(e));
 }
 
+// Behind the number that a marker with an id has, and none that another one has or will have.
+std::int64_t OpenPoints::number_beside(std::int64_t id) {
+  constexpr int steps = 64;  // in a row without a gap there may be many more
+  const Model& model = system_.model();
+  for (std::int64_t near = id; near < id + steps; ++near) {
+    const std::int64_t number = options_.marker_offset + near;
+    const bool of_marker = near > 0 && model.find_marker(near);
+    if (!of_marker && ids_.is_free(IdSpace::point, number)) return ids_.take(IdSpace::point, number);
+  }
+  if (!last_marker_) {
+    last_marker_ = 0;
+    for (const Marker& m : model.markers) last_marker_ = std::max(*last_marker_, m.label ? m.label->id : 0);
+  }
+  const std::int64_t behind = options_.marker_offset + *last_marker_ + 1;
+  return ids_.take(IdSpace::point, behind < Ids::largest ? behind : options_.marker_offset + id);
+}
+
 std::int64_t OpenPoints::add_riding_grid(BodyId body, std::string name, const Vector& at, std::int64_t system,
                                          std::int64_t of) {
   Grid g;
   g.body = body_in_deck(body);
   g.name = std::move(name);
-  g.id = ids_.take(IdSpace::point, options_.use_adams_ids ? options_.marker_offset + of : options_.grid_offset);
+  g.id = options_.use_adams_ids ? number_beside(of) : ids_.take(IdSpace::point, options_.grid_offset);
   g.position = at;
   g.displacement_system = system;
   deck_.grids.push_back(g);

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,16 +68,18 @@ class OpenPoints {
 
  private:
   void add_body(std::size_t b);
+  std::int64_t number_beside(std::int64_t id);
 
   const System& system_;
   const Motion& motion_;
   const ExportOptions& options_;
   Ids& ids_;
   Deck& deck_;
-  std::vector<std::int64_t> grids_;  // by body
-  std::vector<Vector> arms_;         // by body; of flexible ones to the undeformed centre
-  std::vector<BodyId> body_of_;      // of coordinates, invalid outside bodies
-  std::vector<Dof> dofs_;            // of unknowns
+  std::vector<std::int64_t> grids_;          // by body
+  std::optional<std::int64_t> last_marker_;  // the largest id, once it is asked for
+  std::vector<Vector> arms_;                 // by body; of flexible ones to the undeformed centre
+  std::vector<BodyId> body_of_;              // of coordinates, invalid outside bodies
+  std::vector<Dof> dofs_;                    // of unknowns
   std::vector<std::int32_t> states_;
 };
 

@@ -278,6 +278,16 @@ TEST_F(Export, names_input_channels_that_excite_nothing) {
               HasSubstr("input channel shaker excites nothing: constraints hold MARKER/50 there"));
 }
 
+TEST_F(Export, says_which_grids_have_other_numbers_than_asked_for) {
+  EXPECT_THAT(run_with("export_ground_markers = yes\n", "OPENBOX").err, Not(HasSubstr("taken-number")));
+  // That of PART/2 is GRID 100002, which MARKER/20 would have.
+  const RunResult r = run_with("marker_offset = 99982\n", "OPENBOX");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err,
+              AllOf(HasSubstr("marker_offset 99982 and the ids of markers make numbers that other grids have"),
+                    HasSubstr("(MARKER/20 (head): GRID 100003, MARKER/21: GRID 100004)"), HasSubstr("[taken-number]")));
+}
+
 // --- the manual ---
 TEST_F(Export, has_all_directives_on_its_page_as_they_are) {
   const auto page = element_pages().parent_path() / "nastran.md";
