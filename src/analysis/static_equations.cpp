@@ -198,6 +198,18 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
   };
   take(PartialBy::position, 0, by_place);
   take(PartialBy::state, augmented_.state(0), by_place);
+  if (motion_) {
+    Eigen::VectorXd speed = Eigen::VectorXd::Zero(augmented_.size());
+    for (std::size_t k = 0; k < op.velocity.size(); ++k) speed(static_cast<Eigen::Index>(k)) = std::abs(op.velocity[k]);
+    for (const BodyBlock& block : layout.bodies) {
+      if (block.count >= 3) speed.segment(block.offset, 3).setConstant(speed.segment(block.offset, 3).maxCoeff());
+    }
+    for (const PartialBy family : {PartialBy::velocity, PartialBy::damping}) {
+      for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+        rounding_of_terms_(augmented_.equation(r)) += std::abs(v) * speed(c);
+      });
+    }
+  }
   take(PartialBy::lambda, augmented_.lambda(0), rounding_of_terms_);
   take(PartialBy::algebraic, augmented_.algebraic(0), rounding_of_terms_);
   for (std::int32_t k = 0; k < rows_.size(); ++k) {

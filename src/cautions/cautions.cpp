@@ -71,12 +71,12 @@ void overdamping(const System& system, const LinearSystem& linear, const EigenSo
 }
 
 Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                              const EigenSolution* modes) {
+                              const EigenSolution* modes, double left_by_integration) {
   Diagnostics out;
   singular_configuration(system, op, linear, out);
   empty_rows(system, op, out);
   disproportion(system, linear, out);
-  motion_caution(system, op, modes, out);
+  motion_caution(system, op, modes, left_by_integration, out);
   const Motion motion = system.motion(op);
   kinks(system, motion, out);
   for (const BodySource* body : system.bodies()) body->add_cautions(motion, out);
@@ -85,13 +85,14 @@ Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, co
 
 }  // namespace
 
-Diagnostics cautions_of_matrices(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
-  return cautions_of_point(system, op, linear, nullptr);
+Diagnostics cautions_of_matrices(const System& system, const OperatingPoint& op, const LinearSystem& linear,
+                                 double left_by_integration) {
+  return cautions_of_point(system, op, linear, nullptr, left_by_integration);
 }
 
 Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                     const EigenSolution& modes) {
-  Diagnostics out = cautions_of_point(system, op, linear, &modes);
+                     const EigenSolution& modes, double left_by_integration) {
+  Diagnostics out = cautions_of_point(system, op, linear, &modes, left_by_integration);
   overdamping(system, linear, modes, out);
   stiction_cautions(system, op, linear, modes, out);
   return out;

@@ -11,8 +11,12 @@ namespace dynalin {
 //   accelerate or turn at the point: the eigenvalues hold for this instant, overdamped modes: real pairs where
 //   vibrations would be without damping, joints in stiction, whose stiffness may make modes of its own, functions with
 //   a kink or jump right at the point.
-Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&);
+// Of the point an integration has left so much of its errors, as a part of the model's length; 0 where none has led to
+// it.
+Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&,
+                     double left_by_integration = 0);
 // Those among them that are true of matrices as well.
-Diagnostics cautions_of_matrices(const System&, const OperatingPoint&, const LinearSystem&);
+Diagnostics cautions_of_matrices(const System&, const OperatingPoint&, const LinearSystem&,
+                                 double left_by_integration = 0);
 
 }  // namespace dynalin

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/row_sizes.h"
 #include "analysis/static_equations.h"
 #include "dataset/characters.h"
 #include "system/mass_centres.h"
@@ -15,10 +16,12 @@ namespace dynalin {
 
 namespace {
 
-constexpr double balance = 1e-6;    // of the forces at play
-constexpr double unseen = 1e-9;     // turn beside the slowest mode, acceleration beside gravity and what that mode does
-constexpr double roundings = 100;   // that forces may be off: the estimate counts each number once
-constexpr double rounding = 1e-12;  // what solving may leave of one movement beside the others
+constexpr double balance = 1e-6;   // of the forces at play
+constexpr double unseen = 1e-9;    // turn beside the slowest mode, acceleration beside gravity and what that mode does
+constexpr double roundings = 100;  // that forces may be off: the estimate counts each number once
+constexpr double stated_digits = 1e-10;  // to which a dataset states coordinates, of the model's length
+constexpr double unresisted = 1e-14;     // of a part's stiffness, along the whole model: forces that are nothing
+constexpr double rounding = 1e-12;       // what solving may leave of one movement beside the others
 
 // Of the slowest mode that is not a structural zero [rad/time]; 0 if there is none.
 double slowest_mode(const EigenSolution& modes) {
@@ -30,25 +33,71 @@ double slowest_mode(const EigenSolution& modes) {
   return std::isfinite(least) ? 2 * std::numbers::pi * least : 0.0;
 }
 
-// Which coordinates have forces that would set them in motion from rest.
+// Which coordinates have forces on them that do not balance: they accelerate.
 class Unbalanced {
  public:
-  Unbalanced(const System& system, OperatingPoint op) : equations_(system) {
-    std::ranges::fill(op.velocity, 0.0);
+  // Coordinates are known to a part of the model's length; accelerations below the least one are none.
+  Unbalanced(const System& system, OperatingPoint op, double known, double least) : equations_(system) {
+    const Eigen::VectorXd acceleration = as_vector(op.acceleration), velocity = as_vector(op.velocity);
     std::ranges::fill(op.acceleration, 0.0);
-    std::ranges::fill(op.state_rate, 0.0);
+    equations_.look_at_motion();
     equations_.evaluate(op, true);
+    force_ = equations_.residual().head(acceleration.size());
+    // What has no mass is in balance at any time: it accelerates as long as dampers move it.
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(acceleration.size()),
+                          of_mass = equations_.forces_of_motion(still, acceleration),
+                          of_dampers = equations_.forces_of_motion(velocity, still);
+    for (Eigen::Index k = 0; k < force_.size(); ++k) {
+      if (of_mass(k) == 0 && acceleration(k) != 0) force_(k) = of_dampers(k);
+    }
+    is_far_ = !(distance(known) <= known) || prescribed_acceleration(op) > least;
   }
   bool any(std::int32_t first, std::int32_t count) const {
-    for (std::int32_t k = first; k < first + count; ++k) {
-      const double r = std::abs(equations_.residual()(k));
+    for (std::int32_t k = first; is_far_ && k < first + count; ++k) {
+      const double r = std::abs(force_(k));
       if (r > balance * equations_.magnitude()(k) && r > roundings * equations_.rounding()(k)) return true;
     }
     return false;
   }
 
  private:
+  static Eigen::VectorXd as_vector(const std::vector<double>& x) {
+    return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+  }
+  // How far displacements would have to go for balance, to first order, as a part of the model's length. Where nothing
+  // resists them a little of the stiffness of each part does, or rounding of its forces would go far.
+  double distance(double known) {
+    equations_.measure_by(Yardstick::part);
+    SparseLu lu;
+    if (!equations_.factor(lu, equations_.tangent(unresisted / known, 1)))
+      return std::numeric_limits<double>::infinity();
+    Eigen::MatrixXd way = Eigen::MatrixXd::Zero(equations_.residual().size(), 1);
+    way.topRows(force_.size()) = force_;
+    lu.solve(way);
+    double most = 0;
+    for (Eigen::Index k = 0; k < force_.size(); ++k)
+      most = std::max(most, std::abs(way(k, 0)) / equations_.system().coordinate_scale(static_cast<std::int32_t>(k)));
+    return most;
+  }
+
+  // What constraints ask for besides, as those of motions do: no displacement brings it to an end.
+  double prescribed_acceleration(const OperatingPoint& without_acceleration) const {
+    const System& system = equations_.system();
+    ConstraintRows rows;
+    rows.resize(system.layout());
+    system.constraints(system.motion(without_acceleration), rows);
+    double most = 0;
+    for (std::int32_t k = 0; k < rows.size(); ++k) {
+      const Taylor along = rows.along_motion(k);
+      const double asked = rows.level(k) == RowLevel::position ? along.acceleration : along.rate;
+      most = std::max(most, std::abs(asked) * system.length() / row_scale(system, rows.row(k)));
+    }
+    return most;
+  }
+
   StaticEquations equations_;
+  Eigen::VectorXd force_;
+  bool is_far_ = true;
 };
 
 // What turns are compared with: the slowest mode, or without modes what gravity makes of the size of the model.
@@ -86,7 +135,8 @@ std::vector<Movement> movements(const System& system, const Motion& motion) {
 
 }  // namespace
 
-void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, Diagnostics& out) {
+void motion_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes,
+                    double left_by_integration, Diagnostics& out) {
   const Layout& layout = system.layout();
   const double L = system.length(), slowest = slowest_motion(system, modes);
   const Motion motion = system.motion(op);
@@ -95,13 +145,13 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
   for (const double a : {norm(system.model().gravity), L * slowest * slowest})
     if (a > 0) least = std::min(least, a);
   if (!std::isfinite(least)) least = 0;
-  const auto turns = [&](const Movement& m) { return m.turning > unseen * slowest; };
+  const auto turns = [&](const Movement& m) { return m.turning > std::max(unseen, left_by_integration) * slowest; };
   const auto may_accelerate = [&](const Movement& m) { return m.acceleration + L * m.spin_up > unseen * least; };
 
   std::vector<bool> counts(movement.size(), false);
   const bool bends = std::ranges::any_of(layout.extras, &ExtraBlock::is_deformation);
   if (bends || std::any_of(movement.begin() + 1, movement.end(), may_accelerate)) {
-    const Unbalanced unbalanced(system, op);
+    const Unbalanced unbalanced(system, op, std::max(stated_digits, left_by_integration), unseen * least);
     for (std::size_t b = 1; b < movement.size(); ++b) {
       const BodyBlock& block = layout.bodies[b];
       counts[b] = may_accelerate(movement[b]) && unbalanced.any(block.offset, block.count);
@@ -146,11 +196,11 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
 }
 
 void reference_caution(const System& system, const OperatingPoint& op, const EigenSolution* modes, MarkerId reference,
-                       Diagnostics& out) {
+                       double left_by_integration, Diagnostics& out) {
   const Marker& marker = system.model().marker(reference);
   const Motion motion = system.motion(op);
   const double speed = norm(rate(motion.frame(marker.place).origin)), turning = norm(motion.body(marker.place.body).w);
-  const double L = system.length(), least = unseen * slowest_motion(system, modes);
+  const double L = system.length(), least = std::max(unseen, left_by_integration) * slowest_motion(system, modes);
   if (speed <= L * least && turning <= least) return;
   const Units& units = system.model().units;
   out.warning("moving-reference", marker.label->at,

@@ -18,9 +18,14 @@ constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
 
 }  // namespace
 
+double error_of_step(const IntegratorSettings& settings) {
+  return std::clamp(part_of_error * std::pow(settings.error.value_or(default_error), power_of_error), 1e-14, 1e-3);
+}
+double left_by_last_steps(const IntegratorSettings& settings) { return 10 * error_of_step(settings); }
+
 IntegrationBounds::IntegrationBounds(const IntegratorSettings& settings, const OutputTimes& times)
     : error(settings.error.value_or(default_error)) {
-  tolerance.relative = std::clamp(part_of_error * std::pow(error, power_of_error), 1e-14, 1e-3);
+  tolerance.relative = error_of_step(settings);
   tolerance.duration = times.end() - times.start();
   tolerance.passed_over = std::clamp(error, least_passed_over, most_passed_over);
   steps.loosest = std::max(1.0, largest_part_of_error * error / tolerance.relative);

@@ -14,6 +14,7 @@
 #include "routine/routine_findings.h"
 #include "selected_modes/selected_modes.h"
 #include "selected_modes/selection_of_modes.h"
+#include "simulation/integration_bounds.h"
 
 namespace dynalin {
 
@@ -109,9 +110,17 @@ void forget_bounds(EigenSolution& modes) {
   }
 }
 
+// What an integration that has led to the point has left of its errors, as a part of the model's length.
+double left_by_integration(const Linearization& of) {
+  const AnalysisMode mode = of.point.mode;
+  const bool integrated =
+      of.point.progress.order > 0 && (mode == AnalysisMode::dynamics || mode == AnalysisMode::linear);
+  return integrated ? left_by_last_steps(of.system->model().settings.integrator) : 0.0;
+}
+
 void add_reference_caution(const Linearization& of, const EigenSolution* modes, Diagnostics& remarks) {
   const auto marker = of.request.rm ? of.system->model().find_marker(*of.request.rm) : std::nullopt;
-  if (marker) reference_caution(*of.system, of.point, modes, *marker, remarks);
+  if (marker) reference_caution(*of.system, of.point, modes, *marker, left_by_integration(of), remarks);
 }
 
 // Named, labelled and commented, whichever way they were found.
@@ -123,7 +132,7 @@ StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution>
     map_shapes(*of.system, of.linear, *modes);
   }
   label(*modes, of.request);
-  Diagnostics remarks = cautions(*of.system, of.point, of.linear, *modes);
+  Diagnostics remarks = cautions(*of.system, of.point, of.linear, *modes, left_by_integration(of));
   add_reference_caution(of, &*modes, remarks);
   if (of.differenced) forget_bounds(*modes);
   return ModesFound{std::move(*modes), std::move(remarks)};
@@ -177,7 +186,7 @@ StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const 
 }
 
 Diagnostics remarks_of_matrices(const Linearization& of) {
-  Diagnostics remarks = cautions_of_matrices(*of.system, of.point, of.linear);
+  Diagnostics remarks = cautions_of_matrices(*of.system, of.point, of.linear, left_by_integration(of));
   add_reference_caution(of, nullptr, remarks);
   return remarks;
 }

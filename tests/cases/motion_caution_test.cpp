@@ -78,6 +78,60 @@ TEST_F(MotionCaution, has_no_rounding_among_its_numbers) {
   }
 }
 
+// At the place of rest, and yet a damper or friction brakes it; a body without mass creeps.
+TEST_F(MotionCaution, of_what_velocities_do) {
+  const std::string ground = "Moves\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/11, REULER=90D,90D,0\n",
+                    slides =
+                        "PART/2, MASS=2, CM=20, IP=1,1,1, VX=1\nMARKER/20\nMARKER/21, REULER=90D,90D,0\n"
+                        "JOINT/1, TRANSLATIONAL, I=21, J=11\n";
+  for (const std::string braked : {"BUSHING/1, I=20, J=1, K=8,8,8, KT=1,1,1, C=1,1,1\n",
+                                   "VFORCE/1, I=20, JFLOAT=19, RM=1, FX=-TANH(VX(20))\\FY=0\\FZ=0\n"
+                                   "MARKER/19, PART=1, FLOATING\n"})
+    EXPECT_THAT(remarks(ground + slides + braked + "END\n"),
+                ::testing::HasSubstr("most of all PART/2 (acceleration of its mass centre 0."))
+        << braked;
+  const std::string creeps =
+      "PART/2\nMARKER/20\nMARKER/21, REULER=90D,90D,0\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=2,0,0\n"
+      "MARKER/30\nMARKER/31, REULER=90D,90D,0\nJOINT/1, TRANSLATIONAL, I=21, J=11\n"
+      "JOINT/2, TRANSLATIONAL, I=31, J=11\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=30, K=4, C=0.5, LENGTH=1\n"
+      "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=12, K=4, C=0.5, LENGTH=1\nMARKER/12, PART=1, QP=3,0,0\n"
+      "BUSHING/1, I=20, J=1, C=1,1,1\nEND\n";
+  EXPECT_THAT(remarks(ground + creeps), ::testing::HasSubstr(code));
+  // Held at its speed, whatever brakes it.
+  EXPECT_THAT(remarks(ground + slides +
+                      "BUSHING/1, I=20, J=1, C=7E8,7E8,7E8\nMOTION/1, JOINT=1, VELOCITY, FUNCTION=1\n"
+                      "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nBUSHING/3, I=30, J=1, K=9,9,9, KT=9,9,9\nEND\n"),
+              ::testing::Not(::testing::HasSubstr(code)));
+}
+
+// No displacement brings to an end what a MOTION asks for.
+TEST_F(MotionCaution, of_what_a_motion_accelerates) {
+  const std::string driven =
+      "Driven\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n"
+      "BUSHING/3, I=30, J=1, K=9,9,9, KT=9,9,9\nMOTION/1, JOINT=1, FUNCTION=";
+  EXPECT_THAT(remarks(driven + "5*TIME**2\nEND\n"), ::testing::HasSubstr("angular acceleration 10 rad"));
+  EXPECT_THAT(remarks(driven + "0.3\nEND\n"), ::testing::Not(::testing::HasSubstr(code)));
+}
+
+// Places have the digits that a dataset states, and those that an integration leaves.
+TEST_F(MotionCaution, is_not_of_digits_that_nobody_states) {
+  const auto held = [](const std::string& off) {
+    return "Held\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=1.2" + off +
+           ",0,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=1.2,0,0\n"
+           "BUSHING/1, I=21, J=1, K=1E9,1E9,1E9, KT=1E9,1E9,1E9, C=1E4,1E4,1E4, CT=1E4,1E4,1E4\nEND\n";
+  };
+  EXPECT_THAT(remarks(held("0000000004")), ::testing::Not(::testing::HasSubstr(code)));
+  EXPECT_THAT(remarks(held("000000004")), ::testing::HasSubstr(code));
+  const std::string swings =
+      "Swings\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\nMARKER/11, QP=0,1,0\n"
+      "PART/2, MASS=1, CM=20, IP=1,1,1, WZ=0.1\nMARKER/20, QP=0,-1,0\nMARKER/21\n"
+      "JOINT/1, REVOLUTE, I=21, J=1\nSFORCE/1, ROTATIONAL, I=21, J=1, FUNCTION=-2*WZ(21,1)\nEND\n";
+  EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=30, STEPS=30\nLINEAR/EIGENSOL\n"),
+              ::testing::Not(::testing::HasSubstr(code)));
+  EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=12, STEPS=30\nLINEAR/EIGENSOL\n"), ::testing::HasSubstr(code));
+}
+
 // Matrices hold for an instant as eigenvalues do.
 TEST_F(MotionCaution, of_matrices) {
   const std::string pendulum =
