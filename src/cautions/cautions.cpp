@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "cautions/motion_caution.h"
 #include "cautions/stiction_caution.h"
 #include "linear/configuration.h"
@@ -51,18 +53,24 @@ void kinks(const System& system, const Motion& motion, Diagnostics& out) {
 
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
-  int falling = 0, others = 0;
+  int falling = 0, others = 0, elsewhere = 0;
   const EigenMode* slowest = nullptr;
   std::size_t number = 0;
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const EigenMode& m = modes.modes[k];
-    if (!m.is_real || !system.model().find_body(m.mover.statement, m.mover.id)) continue;
+    if (!system.model().find_body(m.mover.statement, m.mover.id)) {
+      elsewhere += m.is_real ? 1 : 2;
+      continue;
+    }
+    if (!m.is_real) continue;
     const bool falls = m.eigenvalue_hz.real() < 0;
     ++(falls ? falling : others);
     if (falls && !slowest) slowest = &m, number = k + 1;
   }
-  // Coordinates of first order bring one real mode each.
-  const int pairs = (falling - others - static_cast<int>(linear.first_order)) / 2;
+  // Coordinates of first order and states of controllers bring one real mode each, and there are as many of the states
+  // among those of bodies as no mode of their own shows: a controller that moves bodies is no vibration behind them.
+  const int of_controllers = std::max(0, static_cast<int>(linear.differential_states) - elsewhere);
+  const int pairs = (falling - others - static_cast<int>(linear.first_order) - of_controllers) / 2;
   if (pairs < 1 || !slowest) return;
   out.warning("overdamped-modes", {},
               fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "

@@ -30,6 +30,19 @@ TEST_F(Caution, overdamped_modes_name_their_part) {
   EXPECT_THAT(run(slide(100, 30), "LINEAR/EIGENSOL, NODAMPIN\n").err, Not(HasSubstr("overdamped")));
 }
 
+// A controller that moves the carriage has real modes, and without damping there is no vibration behind them.
+TEST_F(Caution, controllers_are_no_overdamped_modes) {
+  std::string controlled = slide(100, 1);
+  controlled.insert(controlled.find("END"),
+                    "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=DIF(2)\nDIFF/1, FUNCTION=VX(20)-0.5*DIF(1)\n"
+                    "DIFF/2, FUNCTION=-9*DIF(2)-5*DIF(1)\n");
+  const RunResult r = run(controlled, "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.err, Not(HasSubstr("overdamped")));
+  controlled.replace(controlled.find(", C=1,"), 6, ", C=30,");
+  EXPECT_THAT(run(controlled, "LINEAR/EIGENSOL\n").err, HasSubstr("1 mode is overdamped"));
+}
+
 TEST_F(Caution, accelerating_and_turning_points_name_the_part) {
   // The spring is drawn 0.5 too long: 50 length/time².
   std::string pulled = slide(100, 0);
