@@ -304,7 +304,10 @@ class Dynamics {
     if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
     if (action.ends()) return action;
     if (action.output_step) change_outputs(*action.output_step);
-    if (action.restart) density_.note_restart(statistics_.steps, point_.time, findings_.warnings);
+    if (action.restart) {
+      density_.note_restart(
+          statistics_.steps, point_.time, [&] { return system_.kinks(system_.motion(point_)); }, findings_.warnings);
+    }
     if (!anew) {
       equations_->accept(point_);
     } else if (auto begun = begin(action.step_size); !begun) {

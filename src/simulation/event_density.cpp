@@ -44,25 +44,45 @@ void EventDensity::note_jumps(const Layout& layout, const std::vector<double>& v
   };
   for (std::size_t k = 0; k < values.size(); ++k)
     note(values[k], behind.algebraic[k], largest_values_[k], *layout.algebraic[k].owner);
+  const auto follows_time = [&](const ElementLabel* owner) {
+    return std::ranges::find(layout.velocity_driven, owner) != layout.velocity_driven.end();
+  };
   for (std::size_t k = 0; k < rates.size(); ++k)
-    note(rates[k], behind.state_rate[k], largest_rates_[k], *layout.states[k].owner);
+    if (!follows_time(layout.states[k].owner))
+      note(rates[k], behind.state_rate[k], largest_rates_[k], *layout.states[k].owner);
 }
 
-void EventDensity::note_restart(std::int64_t steps, double time, Diagnostics& warnings) {
+void EventDensity::note_restart(std::int64_t steps, double time, const Kinks& kinks, Diagnostics& warnings) {
   const bool close = last_ && steps - *last_ <= steps_between_events;
   last_ = steps;
   close_ = close ? close_ + 1 : 0;
   if (close_ != event_limit || said_) return;
   said_ = true;
-  const std::string names = fmt::format("{}", fmt::join(jumping_, ", "));
-  warnings.warning(
-      "dense-events", {},
-      fmt::format("at time {:g} functions switch without end: from there on kinks and jumps are at times stepped "
-                  "over, within the error that is allowed{}",
-                  time, names.empty() ? "" : "; what jumps to and fro is " + names),
-      names.empty() ? ""
-                    : "a jump that holds the motion at its own edge, like dry friction by SIGN or IF, asks for steps "
-                      "of next to nothing: give it a slope (STEP)");
+  const std::string jumps = fmt::format("{}", fmt::join(jumping_, ", "));
+  std::set<std::string> bending;
+  for (const Kink& kink : kinks())
+    if (kink.of) bending.insert(kink.of->full_text());
+  std::erase_if(bending, [&](const std::string& name) { return jumping_.contains(name); });
+  const std::string bends = fmt::format("{}", fmt::join(bending, ", "));
+  std::string what, hint;
+  if (!jumps.empty()) {
+    what = "; what jumps to and fro is " + jumps;
+    hint =
+        "a jump that holds the motion at its own edge, like dry friction by SIGN or IF, asks for steps of next to "
+        "nothing: give it a slope (STEP)";
+  }
+  if (!bends.empty()) {
+    what += "; what has a kink there is " + bends;
+    if (hint.empty())
+      hint =
+          "a kink that the motion comes back to at once, like MAX(0,f) where f is about 0, asks for short steps: make "
+          "it round, for example STEP(f,-d,0,d,1)*f";
+  }
+  warnings.warning("dense-events", {},
+                   fmt::format("at time {:g} functions switch without end: from there on kinks and jumps are at times "
+                               "stepped over, within the error that is allowed{}",
+                               time, what),
+                   std::move(hint));
 }
 
 bool EventDensity::watches() const { return close_ < event_limit; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,11 +18,14 @@ class EventDensity {
  public:
   // An event of a run of that duration; a failure where too many have been on next to no way.
   Result<void> pass(double time, double duration);
-  // What is on the other side of an event not what it was before: values of VARIABLEs and rates of states.
+  // What is on the other side of an event not what it was before: values of VARIABLEs and rates of states. The course
+  // of a MOTION follows time alone, which nothing drives to and fro.
   void note_jumps(const Layout&, const std::vector<double>& values, const std::vector<double>& rates,
                   const OperatingPoint& behind);
-  // The integration began anew after so many steps of the run; a warning where switches are passed over from here on.
-  void note_restart(std::int64_t steps, double time, Diagnostics& warnings);
+  // The integration begins anew after so many steps of the run, at a point with kinks; a warning where switches are
+  // passed over from here on.
+  using Kinks = std::function<std::vector<Kink>()>;
+  void note_restart(std::int64_t steps, double time, const Kinks&, Diagnostics& warnings);
   // Whether switches are looked for.
   bool watches() const;
   // After a step without event: whether switches that were passed over are to be looked for again.
