@@ -1,6 +1,7 @@
 #include "cautions/motion_caution.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -203,11 +204,20 @@ void reference_caution(const System& system, const OperatingPoint& op, const Eig
   const double L = system.length(), least = std::max(unseen, left_by_integration) * slowest_motion(system, modes);
   if (speed <= L * least && turning <= least) return;
   const Units& units = system.model().units;
+  std::vector<std::string> of_nodes;
+  for (const BodyBlock& block : system.layout().bodies) {
+    const std::string name = block.label.text();
+    if (block.is_node() && std::ranges::find(of_nodes, name) == of_nodes.end()) of_nodes.push_back(name);
+  }
   out.warning("moving-reference", marker.label->at,
               fmt::format("RM=MARKER/{} moves at this point (velocity {:.5g} {}/{}, angular velocity {:.5g} rad/{}): "
-                          "eigenvalues, shapes and transfer functions are those seen from a moving frame",
+                          "eigenvalues, shapes and transfer functions are those seen from a moving frame{}",
                           marker.label->id, speed, units.length.empty() ? "length" : lower_case(units.length),
-                          units.time_symbol(), turning, units.time_symbol()));
+                          units.time_symbol(), turning, units.time_symbol(),
+                          of_nodes.empty() ? ""
+                                           : fmt::format(", but for nodes of {}, whose states are displacements along "
+                                                         "global axes as without RM",
+                                                         fmt::join(of_nodes, ", "))));
 }
 
 }  // namespace dynalin

@@ -132,6 +132,23 @@ TEST_F(MotionCaution, is_not_of_digits_that_nobody_states) {
   EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=12, STEPS=30\nLINEAR/EIGENSOL\n"), ::testing::HasSubstr(code));
 }
 
+// Nodes have their states along global axes whatever RM says.
+TEST_F(MotionCaution, of_a_moving_reference_names_what_is_not_seen_from_it) {
+  const std::string rotor =
+      "Rotor\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=5*TIME\n";
+  const std::string blade =
+      "MATERIAL/1, YOUNGS_MODULUS=7E10, POISSONS_RATIO=0.3, DENSITY=2700\n"
+      "FE_PART/3, TYPE=3DBEAM, MATERIAL=1, NODE_LABELS=1,2,3, X=0,1,2, AREA=2E-3, IYY=1E-7, IZZ=6E-6, IXX=5E-7\n"
+      "MARKER/30, FE_PART=3, NODE_LABEL=1\nJOINT/2, FIXED, I=30, J=20\n";
+  const std::string body = "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nBUSHING/3, I=30, J=20, K=9,9,9, KT=9,9,9\n";
+  const std::string except = "but for nodes of FE_PART/3, whose states are displacements along global axes";
+  EXPECT_THAT(remarks(rotor + blade + "END\n", "LINEAR/EIGENSOL, RM=20\n"), ::testing::HasSubstr(except));
+  const std::string of_body = remarks(rotor + body + "END\n", "LINEAR/EIGENSOL, RM=20\n");
+  EXPECT_THAT(of_body, ::testing::HasSubstr("[moving-reference]"));
+  EXPECT_THAT(of_body, ::testing::Not(::testing::HasSubstr("but for nodes")));
+}
+
 // Matrices hold for an instant as eigenvalues do.
 TEST_F(MotionCaution, of_matrices) {
   const std::string pendulum =
