@@ -115,7 +115,7 @@ void Planner::begin_job(std::string prefix, std::string folder) {
                  : wanted.ends_with('/')           ? wanted + fs::path(prefix).filename().string()
                                                    : wanted;
   begun.opening = std::exchange(opening_, {});
-  sound_ = !diagnostics.has_errors();
+  sound_ = true;
 }
 
 bool Planner::finish_stage(Job& of, std::optional<Job::Stage> stage) {

@@ -100,7 +100,12 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
   using TypedSet::TypedSet;
   void read(std::size_t k, ElementReader& reader) override {
     E written;
-    if (read_arguments(written, reader)) elements[k] = LinearWrench(written.law(reader));
+    const bool readable = read_arguments(written, reader);
+    // What is wrong with values is said beside what is wrong with other arguments.
+    constexpr bool says_all = requires { E::says_all; };
+    if (!readable && !says_all) return;
+    const LinearLaw law = written.law(reader);
+    if (readable) elements[k] = LinearWrench(law);
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
