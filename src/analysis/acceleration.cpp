@@ -205,7 +205,11 @@ tl::expected<Solution, Failure> iterate(const System& system, AccelerationEquati
         if (const std::string reason = system.domain_violation(system.motion(op)); !reason.empty())
           return failure(reason, "undefined-value");
         const std::vector<std::string> free = undetermined(system, augmented, equations.augmented_matrix());
-        const std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
+        std::string named = free.empty() ? "" : fmt::format(": nothing fixes {}", fmt::join(free, ", "));
+        const auto is_value = [](const std::string& name) { return name.starts_with("the value of "); };
+        if (!free.empty() && std::ranges::all_of(free, is_value))
+          named += free.size() > 1 ? "; the functions read each other, and contradict each other or agree on any value"
+                                   : "; the function reads itself, and no value agrees with it, or any does";
         return failure("the accelerations are not determined" + named, "undetermined-accelerations", free);
       }
     }

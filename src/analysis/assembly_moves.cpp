@@ -17,6 +17,7 @@ namespace {
 
 // Parts of the model's length, or radians: more than the digits of a dataset leave open, and than is changed by them.
 constexpr double drawn_open = 1e-4, kept = 1e-6;
+constexpr std::size_t named = 10;  // constraints of a model that was drawn apart
 
 struct Move {
   double distance = 0, turn = 0;  // [length], [rad]
@@ -126,14 +127,22 @@ void warn_of_moves(const System& system, const OperatingPoint& drawn, const Oper
     if (!stays(b)) moved.push_back(b);
   }
   if (moved.empty()) return;
+  std::size_t said = 0, unsaid = 0;
   for (const OpenConstraint& c : open_constraints(system, drawn, assembled)) {
     const std::string what = text_of(move_of(drawn, assembled, c.body), system.length());
     if (what.empty()) continue;
+    if (++said > named) {
+      ++unsaid;
+      continue;
+    }
     warnings.warning(
         "drawn-open", c.owner->at,
         fmt::format("{} does not hold as drawn: of the parts it joins, {} moves most to meet it, assembly {}",
                     c.owner->full_text(), layout.bodies[c.body].label.full_text(), what));
   }
+  if (unsaid > 0)
+    warnings.warning("drawn-open", {},
+                     fmt::format("{} more constraint{} not hold as drawn", unsaid, unsaid == 1 ? " does" : "s do"));
   for (const std::size_t b : moved) {
     const auto changed = changed_coordinates(system, drawn, assembled, b);
     if (changed.empty()) continue;

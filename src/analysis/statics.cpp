@@ -59,7 +59,9 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
                                         StaticsReport& report, Findings& findings) {
   if (const auto& driven = system.layout().velocity_driven; !driven.empty()) {
     Failure f{"static analysis",
-              "motions that prescribe a velocity or an acceleration contradict rest",
+              fmt::format("motions that prescribe a velocity or an acceleration contradict rest: for statics give each "
+                          "a place, MOTION/{0}, DISPLACEMENT, FUNCTION=0, or take it out, DEACTIVATE/MOTION, ID={0}",
+                          driven.front()->id),
               {},
               "motion-at-rest"};
     for (const ElementLabel* label : driven) f.details.push_back(label->full_text());

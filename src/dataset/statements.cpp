@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <charconv>
 #include <limits>
@@ -292,6 +293,9 @@ void StatementReader::look_up(Statement& statement) {
   std::string_view nearest = nearest_word(word, keywords_);
   if (nearest.empty()) nearest = only_with(word, keywords_);
   std::string hint = other_language_hint(word);
+  static constexpr std::array<std::string_view, 2> endings = {"QUIT", "EXIT"};
+  const auto ends = [&](std::string_view ending) { return equal_ignoring_case(word, ending); };
+  if (language_ != Language::dataset && std::ranges::any_of(endings, ends)) hint = "STOP ends the run";
   if (hint.empty() && !nearest.empty()) hint = fmt::format("did you mean {}?", nearest);
   diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword(),
                      fmt::format("there is no {} {}", noun, quoted(word)), std::move(hint));

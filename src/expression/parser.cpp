@@ -111,8 +111,13 @@ void ExpressionParser::read_operator() {
   } else if (tokens_[at_].kind == TokenKind::other || (!symbol.empty() && symbol != "(" && symbol != "[")) {
     syntax_error("bad-character", span(at_), fmt::format("'{}' has no meaning in an expression", text(at_)));
   } else {
+    const std::string_view next = text(at_);
+    const bool exponent = at_ > 0 && tokens_[at_ - 1].kind == TokenKind::number && next.size() > 1 &&
+                          (next.front() == 'D' || next.front() == 'd') &&
+                          next.find_first_not_of("0123456789", 1) == std::string_view::npos;
     syntax_error("missing-operator", span(at_),
-                 fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1), text(at_)));
+                 fmt::format("an operator is missing between '{}' and '{}'", text(at_ - 1), next),
+                 exponent ? "an exponent begins with E, as in 2.5E0: D behind a number means degrees" : "");
   }
 }
 

@@ -47,7 +47,7 @@ PhysicalEquations equations_of(const LinearModel::Inside& inside) {
 
 // A model whose matrices are D alone has no modes.
 void check_for_states(const Linearization& linear) {
-  if (linear.states() == 0) fail(no_states());
+  if (linear.states() == 0) fail(no_states(*linear.system));
 }
 
 }  // namespace

@@ -39,7 +39,11 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
   variant_argument = no_argument;
   const auto it = kinds_.find(s.name);
   if (it == kinds_.end()) {
-    diagnostics.error("statement-not-built", s.keyword(), fmt::format("{} is not available yet", s.name));
+    std::string instead;
+    if (s.name == "UCON") instead = "GCON states a constraint by an expression";
+    if (s.name == "TIRE" || s.name == "SURFACE") instead = "a BUSHING or SFORCE with the stiffness of the tire";
+    diagnostics.error("statement-not-built", s.keyword(), fmt::format("{} is not available yet", s.name),
+                      std::move(instead));
     return nullptr;
   }
   // No structured binding: clang 14 lets no lambda have one.

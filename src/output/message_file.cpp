@@ -205,7 +205,8 @@ void write_eigen_table(std::ostream& out, const EigenSolution& e, const std::str
   const double fastest = largest_modulus(e);
   for (const EigenMode& m : e.modes) {
     const double size = std::abs(m.eigenvalue_hz), compared = size > 0 ? size : fastest;
-    const double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
+    double ratio = size > 0 ? -m.eigenvalue_hz.real() / size : 0.0;
+    if (std::abs(ratio) < 0.5e-5) ratio = 0;  // without the sign of what is not printed
     const double bound = m.error_bound_hz;
     const auto digits = [&](double v) {
       return fmt::format("{:.7g}{}", v + 0.0, doubt(certain(v, compared, bound, 7)));

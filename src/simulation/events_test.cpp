@@ -195,7 +195,7 @@ TEST(Events, sensors_do_all_they_say) {
   EXPECT_FALSE(a.output);
   EXPECT_EQ(a.output_step, 0.01);
   EXPECT_EQ(a.step_size, 0.001);
-  EXPECT_THAT(a.text, HasSubstr("SENSOR/7 triggers at time 1.5: FUNCTION is 1.1\n"));
+  EXPECT_THAT(a.text, HasSubstr("SENSOR/7 triggers at time 1.5: FUNCTION is 1.1, and ends the run (HALT)\n"));
   EXPECT_THAT(a.text, HasSubstr("state 1 of DIFF/1: 1.1"));
   const EventAction b = w.go(2, 3);
   EXPECT_TRUE(b.output);

@@ -109,11 +109,10 @@ class KinematicRun {
       std::vector<std::string> free;
       for (const std::int32_t k : equations_.partition().independent)
         free.push_back(system_.layout().coordinate_text(k));
-      const std::size_t count = free.size();
       std::string message = fmt::format(
-          "KINEMATICS needs a model without degrees of freedom, and this one has {}: nothing determines {}; "
-          "SIMULATE/DYNAMICS or SIMULATE/TRANSIENT integrates its motion",
-          count, list(free));
+          "KINEMATICS needs a model without degrees of freedom, and this one has {}; SIMULATE/DYNAMICS or "
+          "SIMULATE/TRANSIENT integrates its motion. Nothing determines these",
+          free.size());
       return tl::unexpected(failure(at_.time, std::move(message), "freedoms-in-kinematics", std::move(free)));
     }
     auto complete = reconcile_velocity(system_, std::move(at_), findings_).and_then([&](OperatingPoint op) {

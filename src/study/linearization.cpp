@@ -58,8 +58,13 @@ void label(Value& result, const LinearRequest& request) {
 
 }  // namespace
 
-Failure no_states() {
-  return {"linear analysis", "the model has no states: neither degrees of freedom nor differential states", {}};
+Failure no_states(const System& system) {
+  std::string reason = "the model has no states: neither degrees of freedom nor differential states";
+  const std::vector<ConstraintRow>& rows = system.layout().rows;
+  if (const auto driven = std::ranges::find(rows, true, &ConstraintRow::prescribed); driven != rows.end())
+    reason += fmt::format("; {0} prescribes its motion, and DEACTIVATE/MOTION, ID={1} would leave it free",
+                          driven->owner->full_text(), driven->owner->id);
+  return {"linear analysis", std::move(reason), {}};
 }
 
 StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest& request, Stateless stateless,
@@ -84,7 +89,7 @@ StudyResult<Linearization> linearized(const StudyPoint& at, const LinearRequest&
                                            : linearize_unreduced(*at.system, result.point, *options);
   if (!linear) return tl::unexpected(StudyFailure(linear.error()));
   if (stateless == Stateless::refused && linear->model.states.empty())
-    return tl::unexpected(StudyFailure(no_states(), std::move(linear->warnings)));
+    return tl::unexpected(StudyFailure(no_states(*at.system), std::move(linear->warnings)));
   result.linear = std::move(*linear);
   result.linear.warnings.append(std::move(of_analysis.warnings));
   result.differenced = routines.differenced;

@@ -29,7 +29,7 @@ enum class Stateless : std::uint8_t { refused, taken };
 inline Stateless stateless_matrices(const LinearRequest& request) {
   return request.pinput && request.poutput ? Stateless::taken : Stateless::refused;
 }
-Failure no_states();
+Failure no_states(const System&);
 
 // Up to how many states the state matrix is formed; without it the linear model is an operator of the size of the
 // model.

@@ -176,14 +176,23 @@ std::string summary_of(const SimulatedPoint& found) {
                      s.jacobians, by);
 }
 
-std::string_view ending_of(SimulationEnd end) {
+// The first of the SENSORs that say so of themselves, a line each.
+std::string ending_sensor(std::string_view said, std::string_view how) {
+  const std::size_t ends = said.find(how);
+  if (ends == std::string_view::npos) return "a SENSOR";
+  const std::size_t line_before = said.rfind('\n', ends);
+  const std::string_view line = said.substr(line_before == std::string_view::npos ? 0 : line_before + 1);
+  return std::string(line.substr(0, line.find(" triggers ")));
+}
+
+std::string ending_of(SimulationEnd end, std::string_view said) {
   switch (end) {
     case SimulationEnd::reached:
       return "";
     case SimulationEnd::returned:
-      return ", ended by a SENSOR with RETURN";
+      return fmt::format(", ended by {} with RETURN", ending_sensor(said, "(RETURN)"));
     case SimulationEnd::halted:
-      return ", the run ended by a SENSOR with HALT";
+      return fmt::format(", the run ended by {} with HALT", ending_sensor(said, "(HALT)"));
     case SimulationEnd::stopped:
       return ", interrupted";
   }
@@ -223,7 +232,9 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   ProgressLine line(run.status_line());
   const Progress progress(start, last);
   const Interruptible stop_on_request;
+  std::string said;  // by SENSORs, last
   const auto found = simulate(run.point, request, [&](const SimulationStep& at) {
+    if (!at.text.empty()) said = at.text;
     line.show([&] { return progress.text(at); });
     const GoOn written = output.add(at);
     return interrupted() ? GoOn::no : written;
@@ -233,7 +244,7 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   if (!found) return tl::unexpected(found.error());
   if (!written) return written;
   run.count(found->statistics);
-  if (run.terminal) fmt::print(*run.terminal, "{}{}\n", summary_of(*found), ending_of(found->end));
+  if (run.terminal) fmt::print(*run.terminal, "{}{}\n", summary_of(*found), ending_of(found->end, said));
   if (found->end == SimulationEnd::halted) run.halted = true;
   run.accept({found->point, found->remarks});
   run.show_where_it_ended();

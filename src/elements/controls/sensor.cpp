@@ -202,6 +202,7 @@ class SensorKernel final : public Kernel, public EventSource {
       kept = now;
       action.text += fmt::format(", EVALUATE is {:.6g}", now);
     }
+    if (s.halt || s.returns) action.text += s.halt ? ", and ends the run (HALT)" : ", and ends the simulation (RETURN)";
     action.text += '\n';
   }
 
