@@ -44,13 +44,10 @@ void take(const JointFriction& f, const T& load, const std::array<T, n>& u, cons
   for (std::size_t k = 0; k < n; ++k) rate[k] = moves[k];
 }
 
-// A slip that is none: what a simulation that has come to rest leaves of it has no direction, and the linear model is
-// that of bristles at rest.
-constexpr double no_slip = 1e-6;  // of the velocity up to which surfaces stick
 template <class T, std::size_t n>
 bool takes_rest(const JointFriction& f, std::array<T, n>& u) {
   const double speed = std::sqrt(squared(u).value);
-  if (!(speed > 0) || !f.law.has_bristles() || speed > no_slip * f.law.stiction_velocity) return false;
+  if (!(speed > 0) || slips(f, speed)) return false;
   for (T& x : u) x.value = 0;
   return true;
 }

@@ -50,6 +50,13 @@ struct EvaluatedFriction {
   Sizes sizes;       // of what the joint bears
 };
 
+// A slip that is none: what a simulation that has come to rest leaves of it has no direction, and the linear model is
+// that of bristles at rest.
+inline bool slips(const JointFriction& f, double speed) {
+  constexpr double no_slip = 1e-6;  // of the velocity up to which surfaces stick
+  return speed > (f.law.has_bristles() ? no_slip * f.law.stiction_velocity : 0);
+}
+
 // Where nothing slips (friction_at_rest.h).
 inline bool in_equilibrium(const Motion& motion) {
   return motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;

@@ -235,12 +235,12 @@ void JointFrictionKernel::vanishing(const Motion& motion, const Layout& layout, 
                                  if (by != 0) component.push_back({family, column, by});
                                });
       }
-      const bool slips = at.speed > (p.element->law.has_bristles() ? no_slip * p.element->law.stiction_velocity : 0);
       size.reason = fmt::format(
           "{}: a force or moment that JOINT/{} bears across its surfaces is zero while {}, and friction by its size "
           "has "
           "no derivative there",
-          (*labels_)[k].full_text(), p.element->joint, slips ? "they slip" : "bristles between them are bent");
+          (*labels_)[k].full_text(), p.element->joint,
+          slips(*p.element, at.speed) ? "they slip" : "bristles between them are bent");
       out.push_back(std::move(size));
     }
   }
