@@ -14,8 +14,8 @@ bool is_below(std::string_view name, std::string_view owner) {
   return name.size() > owner.size() && name.starts_with(owner) && name[owner.size()] == '.';
 }
 
-std::string below(std::string_view owner, std::string_view name) {
-  return owner.empty() || is_below(name, owner) ? std::string(name) : fmt::format("{}.{}", owner, name);
+std::string joined(std::string_view owner, std::string_view name) {
+  return owner.empty() ? std::string(name) : fmt::format("{}.{}", owner, name);
 }
 
 }  // namespace
@@ -37,7 +37,10 @@ std::string_view view_model_name(std::string_view title) {
 
 std::string view_path(std::string_view of_model, std::string_view of_part, std::string_view name) {
   if (name.empty() || is_whole_view_name(of_model, name)) return std::string(name);
-  return below(of_model, below(of_part, name));
+  if (of_part.empty()) return joined(of_model, name);
+  // The part may have the name of the model, and its own name may stand before that of the marker already.
+  const std::string part = view_path(of_model, {}, of_part);
+  return is_below(name, of_part) ? part + std::string(name.substr(of_part.size())) : joined(part, name);
 }
 
 std::string view_path(const Model& model, const ElementLabel& label) {
