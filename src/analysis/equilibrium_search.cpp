@@ -179,6 +179,7 @@ Result<OperatingPoint> EquilibriumSearch::run(AtSaddles at_saddles, const std::v
   }
   if (held_states_) keep_first_state(first_state);
   equations_.evaluate(op_, true);
+  if (is_grossly_unbalanced()) return refused();
   OperatingPoint rest = with_report(std::move(op_));
   if (options_.tolerance && report_.imbalance > options_.tolerance->imbalance) {
     findings_.warnings.warning(
@@ -187,6 +188,18 @@ Result<OperatingPoint> EquilibriumSearch::run(AtSaddles at_saddles, const std::v
                     options_.tolerance->imbalance, report_.imbalance));
   }
   return rest;
+}
+
+// Of the last evaluation. A step so small that it is taken for rounding may end where forces jump, or are out of all
+// proportion: no rounding makes as much of them, nor was there less to be balanced at first.
+bool EquilibriumSearch::is_grossly_unbalanced() {
+  constexpr double gross = 1e-3, far_above_rounding = 1e6;
+  const double imbalance = equations_.imbalance();
+  if (!(imbalance > gross * equations_.force_scale()) || equations_.excess() < far_above_rounding) return false;
+  equations_.evaluate(drawn_, true);
+  const bool is_gross = imbalance > gross * equations_.imbalance();
+  equations_.evaluate(op_, true);
+  return is_gross;
 }
 
 bool EquilibriumSearch::is_of_this_mechanism() {

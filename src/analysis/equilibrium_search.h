@@ -23,6 +23,7 @@ class EquilibriumSearch {
 
  private:
   bool is_of_this_mechanism();
+  bool is_grossly_unbalanced();
   bool may_go_on() const { return !found_ && equations_.effort() < options_.effort_limit; }
   void search_downhill();
   bool is_hopeless();

@@ -96,6 +96,7 @@ std::size_t add_triangle(const std::vector<SurfacePiece>& pieces, std::size_t be
     const SurfacePiece& p = pieces[end];
     if (p.volume != first.volume || p.of_I != first.of_I || p.triangle != first.triangle) break;
     m.add(start, p.from - o.origin, p.to - o.origin, n);
+    o.corners.push_back(p.from - o.origin);
     reach = std::max(reach, norm(p.to - first.from));
     if (p.other == SurfacePiece::none) continue;
     if (const auto cut = Cut::of(p, n, B.normal(p.other), o.origin)) cut->add_to(part);
@@ -121,6 +122,14 @@ std::vector<Overlap> integrals(const std::vector<SurfacePiece>& pieces, const Pl
   return volumes;
 }
 
+// The other body, from the one that stands in this frame.
+RelativeFrame<double> seen_from(const RelativeFrame<double>& f) {
+  return {-Vector{dot(f.x, f.p), dot(f.y, f.p), dot(f.z, f.p)},
+          {f.x.x, f.y.x, f.z.x},
+          {f.x.y, f.y.y, f.z.y},
+          {f.x.z, f.y.z, f.z.z}};
+}
+
 // Whether a lump of one of the bodies that crosses nothing is wholly in the other one: in what the facets of B bound,
 // or in a cavity in what is around them.
 bool engulfs(const SurfaceArrangement& found, bool of_I, const FacetBody& A, const RelativeFrame<double>& A_from_B,
@@ -142,10 +151,6 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
   Overlaps found;
   const double size = I.radius() + J.radius();
   const RelativeFrame<double> own{{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const RelativeFrame<double> J_from_I{-Vector{dot(f.x, f.p), dot(f.y, f.p), dot(f.z, f.p)},
-                                       {f.x.x, f.y.x, f.z.x},
-                                       {f.x.y, f.y.y, f.z.y},
-                                       {f.x.z, f.y.z, f.z.z}};
   const auto pairs = near_pairs(I, f, J);
   for (const double times : {1.0, -7.0, 53.0}) {
     RelativeFrame<double> beside = f;
@@ -154,7 +159,8 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
     const SurfaceArrangement crossing = arrangement(placed_I, placed_J, pairs);
     found.definite = crossing.consistent;
     if (!found.definite) continue;
-    found.engulfed = engulfs(crossing, true, I, f, J, cavity) || engulfs(crossing, false, J, J_from_I, I, false);
+    found.engulfed =
+        engulfs(crossing, true, I, beside, J, cavity) || engulfs(crossing, false, J, seen_from(beside), I, false);
     found.volumes = integrals(crossing.pieces, placed_I, placed_J, size);
     return found;
   }

@@ -32,6 +32,7 @@ struct Overlap {
   Vector moment{};    // ∫ x dV [length⁴]
   Vector volume_by_shift{}, volume_by_turn{};
   Matrix3 moment_by_shift{}, moment_by_turn{};  // row: component of the integral
+  std::vector<Vector> corners;                  // all of its surface, some more than once
   std::vector<Part> of_I;
   std::vector<FixedPart> of_J;
   bool whole = true;  // false: there are holes in it, through which the bodies reach

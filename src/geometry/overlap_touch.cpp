@@ -15,7 +15,10 @@ namespace {
 
 using Index = FacetBody::Index;
 
-constexpr double least_net_area = 1e-6;  // of the area of a volume's surface: below it no direction is left
+// Of the area of both parts of a volume's surface: below it they are nearly closed, and no direction is left.
+constexpr double least_net_area = 0.1;
+constexpr double no_sides = 1e-6;                      // of the area of a surface
+constexpr double most_depth = 1.1;                     // of the extent of a volume along the normal
 constexpr double side_below = 0.05, face_above = 0.2;  // cosine between a facet and the net area: see NetArea
 constexpr double just_touching = 1e-12;                // of the size: a mean depth that is none
 constexpr double on_facet = 1e-9;                      // of its size: how far beside it a line still meets a facet
@@ -116,6 +119,7 @@ struct NetArea {
   Vec3<T> all{T(0.0), T(0.0), T(0.0)};   // ∫ n dS
   Vec3<T> face{T(0.0), T(0.0), T(0.0)};  // without sides
   T sides{0.0};                          // their area
+  std::optional<Vec3<T>> flat;           // the normal of all that is no side, where that is one plane
 };
 
 template <class Part>
@@ -128,22 +132,31 @@ double surface_of(const std::vector<Part>& parts) {
 template <class T, class Part>
 NetArea<T> net_area(const PlacedFacets<T>& A, const std::vector<Part>& parts, const Nudge<T>& nudge) {
   NetArea<T> net;
-  std::vector<std::pair<T, Vec3<T>>> faces;
+  std::vector<std::pair<T, Vec3<T>>> faces;  // of each part
   for (const Part& p : parts) {
     faces.emplace_back(nudge.of(p.area, p.area_by_shift, p.area_by_turn), A.normal(p.triangle));
     net.all += faces.back().second * faces.back().first;
   }
   net.face = net.all;
   const T size = norm(net.all);
-  if (value_of(size) <= least_net_area * surface_of(parts)) return net;
+  if (value_of(size) <= no_sides * surface_of(parts)) return net;
   const Vec3<T> towards = net.all / size;
   Vec3<T> of_sides{T(0.0), T(0.0), T(0.0)};
   T area(0.0);
-  for (const auto& [of_face, n] : faces) {
+  const Vector* plane = nullptr;
+  bool is_flat = true;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const auto& [of_face, n] = faces[k];
     const T cosine = dot(n, towards),
             share = 1.0 - step(value_of(cosine) < 0 ? -cosine : cosine, side_below, face_above);
     of_sides += n * (of_face * share), area += of_face * share;
+    if (value_of(share) == 1) continue;
+    // Facets of one plane have one normal.
+    const Vector& own = A.body.triangles()[parts[k].triangle].normal;
+    is_flat = is_flat && (!plane || (own.x == plane->x && own.y == plane->y && own.z == plane->z));
+    if (!plane) plane = &own, net.flat = n;
   }
+  if (!is_flat) net.flat.reset();
   if (!(value_of(area) > 0)) return net;
   // The square: a norm has no derivative at 0.
   const T sideways = dot(of_sides, of_sides) / (size * size);
@@ -158,10 +171,13 @@ template <class T>
 std::optional<Vec3<T>> normal_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J,
                                  const Nudge<T>& nudge) {
   const NetArea<T> of_I = net_area(I, o.of_I, nudge), of_J = net_area(J, o.of_J, nudge);
-  const double least = least_net_area * surface_of(o.of_J);
-  if (value_of(norm(of_J.all)) <= least) return std::nullopt;
+  const double surface = std::min(surface_of(o.of_I), surface_of(o.of_J));
+  if (value_of(norm(of_J.all)) <= least_net_area * surface) return std::nullopt;
+  // What is flat says the normal without roundings, so that nothing pushes along it.
   const T sides = of_I.sides + of_J.sides;
-  if (value_of(sides) <= least) return normalized(of_J.all);
+  if (value_of(of_J.sides) <= no_sides * surface && of_J.flat) return of_J.flat;
+  if (value_of(of_I.sides) <= no_sides * surface && of_I.flat) return -*of_I.flat;
+  if (value_of(sides) <= no_sides * surface) return normalized(of_J.all);
   return normalized(of_J.face * (of_I.sides / sides) - of_I.face * (of_J.sides / sides));
 }
 
@@ -173,6 +189,12 @@ struct Reach {
   T above{0.0}, below{0.0};
   T sum() const { return above + below; }
 };
+
+double extent(const Overlap& o, const Vector& along) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector& v : o.corners) low = std::min(low, dot(v, along)), high = std::max(high, dot(v, along));
+  return high - low;
+}
 
 // From the centroid c, where one of the surfaces is flat and the other comes to a point, to an edge or a face there: by
 // their mean distances from it. With a cross-section that grows from the point on as the power p of the way, of the
@@ -221,6 +243,8 @@ Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets
   if (!o.whole || !found) return t;
   const Vec3<T>& normal = *found;
   Reach<T> reach = mean_reach(o, J, nudge, volume, centroid - o.origin, normal);
+  // Where a body comes out at the other side, surfaces look the other way in part, and the means say nothing.
+  if (value_of(reach.sum()) > most_depth * extent(o, value_of(normal))) reach = {};
   double seam = t.seam;
   const auto met = met_reach(o, I, J, centroid, normal, seam);
   if (met && value_of(met->sum()) > value_of(reach.sum())) reach = *met, t.seam = seam;

@@ -179,15 +179,20 @@ TEST_F(overlap_touch, a_table_stands_on_each_of_its_legs) {
     for (std::size_t k = 0; k < 6; ++k) {
       EXPECT_NEAR(t.gap.partial[k], wanted[k], 1e-10) << k;
       // The floor's: it does not turn with the legs.
-      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(t.normal[c].partial[k], 0, 1e-10) << k;
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(t.normal[c].partial[k], 0) << k;
     }
   }
   EXPECT_EQ(touches(feet, at({0.1, -0.2, 0.02}), floor).size(), 0u);
   std::vector<Touch<double>> open(most_overlaps);
   touch_overlaps<double>(feet, at({0.1, -0.2, 0.02}), floor, false, open);
   EXPECT_NEAR(open.front().gap, 0.02, 1e-15);
-  // Just on it they neither push nor are in doubt.
-  EXPECT_EQ(touches(feet, at({0.1, -0.2, 0}), floor).size(), 0u);
+  // Just on it, or as little in it as roundings say, they hardly push and are not in doubt.
+  for (const double depth : {0.0, 1e-16, 1e-14, 5e-14, 1e-13, 1e-12, 1e-11}) {
+    for (const auto& t : touches(feet, at({0.1, -0.2, -depth}), floor)) {
+      EXPECT_TRUE(t.defined) << depth;
+      EXPECT_LE(-t.gap, depth + 1e-15);
+    }
+  }
 }
 
 TEST_F(overlap_touch, of_a_corner_an_edge_and_two_crossing_edges_is_as_deep_as_they_are) {
@@ -444,6 +449,25 @@ TEST_F(overlap_touch, of_bodies_drawn_on_one_grid_is_definite) {
     seen += here > 1e-3;
   }
   EXPECT_GT(seen, 300);
+}
+
+// A bar that comes out at the other side of a plate is no deeper than the plate, or has no direction.
+TEST_F(overlap_touch, of_a_bar_through_a_plate_is_no_deeper_than_the_plate) {
+  const FacetBody plate = swept({{0, 0}, {1, 0}, {1, 0.05}, {0.05, 0.05}, {0.05, 0.5}, {0, 0.5}}, -0.5, 0.5),
+                  bar = facets_of_box({-0.05, -0.3, -0.05}, {0.05, 0.3, 0.05});
+  int deep = 0, without = 0;
+  for (const double tilt : {0.2, 0.785, 1.1}) {
+    for (double y = 0.3; y > -0.3; y -= 0.005) {
+      const RelativeFrame<double> f{
+          {0.5, y, 0.02}, {std::cos(tilt), -std::sin(tilt), 0}, {std::sin(tilt), std::cos(tilt), 0}, {0, 0, 1}};
+      for (const auto& t : touches(bar, f, plate)) {
+        ++(t.defined ? deep : without);
+        EXPECT_LT(-t.gap, t.defined ? 0.2 : 1) << tilt << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(deep, 20);
+  EXPECT_GT(without, 20);
 }
 
 TEST_F(overlap_touch, has_no_direction_all_around_and_wholly_inside) {
