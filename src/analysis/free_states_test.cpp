@@ -103,6 +103,62 @@ TEST(FreeStates, a_combination_that_is_free_keeps_its_value) {
   EXPECT_LE(rest.report.iterations, 3);
 }
 
+// What nothing holds are coordinates: the integrators are determined, and go at once to where they balance.
+TEST(FreeStates, integrators_beside_free_coordinates_are_not_held) {
+  const std::string part =
+      "ACCGRAV/KGRAV=-10\nMARKER/901, PART=1, FLOATING\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n";
+  const std::string load = "VFORCE/1, I=20, JFLOAT=901, RM=1, FX=0\\FY=0\\FZ=-30*DIF(1)-100*(DZ(20)-0.1)";
+  const std::string height = "\nDIFF/1, FUNCTION=DZ(20)-0.1\n";
+  const std::string soft = "BUSHING/1, I=20, J=1, K=100,100,0, KT=10,10,0, C=1,1,1, CT=1,1,1\n";
+  const std::string cart =
+      "ACCGRAV/KGRAV=-10\nMARKER/12, PART=1, REULER=90D,90D,0\nPART/2, MASS=3, CM=20, IP=1,1,1\n"
+      "MARKER/20, REULER=90D,90D,0\nMARKER/21, REULER=0,90D,0\nJOINT/1, TRANSLATIONAL, I=20, J=12\n"
+      "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30, QP=0.2,0,1\nMARKER/31, REULER=0,90D,0\n"
+      "JOINT/2, REVOLUTE, I=31, J=21\n"
+      "SFORCE/1, ROTATIONAL, I=31, J=21, FUNCTION=-60*(AZ(31,21)-0.1)-10*WZ(31,21)-40*DIF(1)\n"
+      "DIFF/1, FUNCTION=AZ(31,21)-0.1\n";
+  const std::string two =
+      "ACCGRAV/KGRAV=-10\nMARKER/29, PART=1, FLOATING\nMARKER/39, PART=1, FLOATING\n"
+      "PART/2, MASS=0.9, CM=20, IP=1,1,1, QG=2,0.08,-0.09\nMARKER/20\nDIFF/1, FUNCTION=DZ(20)-0.97\n"
+      "VFORCE/2, I=20, JFLOAT=29, RM=1, FX=-1.2*(DX(20)-2.1)\\FY=0\\FZ=-120*(DZ(20)-0.97)-35*DIF(1)\n"
+      "PART/3, MASS=53, CM=30, IP=1,1,1, QG=3,0.9,0.26\nMARKER/30\nDIFF/2, FUNCTION=TANH(5*(DZ(30)-0.29))\n"
+      "VFORCE/3, I=30, JFLOAT=39, RM=1, FX=-30*(DX(30)-3.1)\\FY=0\\FZ=-23*(DZ(30)-0.29)-74*DIF(2)\n";
+  const std::pair<std::string, int> models[] = {
+      {part + load + "-20*VZ(20)" + height, 10}, {part + soft + load + height, 10}, {cart, 60}, {two, 8}};
+  for (const auto& [model, most] : models) {
+    const Rest rest(model);
+    ASSERT_TRUE(rest.op) << rest.op.error().message << model;
+    EXPECT_LE(rest.report.iterations, most) << model;
+  }
+}
+
+// Free coordinates of another part do not keep Newton's steps from states that are free.
+TEST(FreeStates, states_are_found_as_soon_beside_free_coordinates) {
+  const std::string beside =
+      "MARKER/901, PART=1, FLOATING\nPART/4, MASS=1, CM=40, IP=1,1,1\nMARKER/40\n"
+      "VFORCE/1, I=40, JFLOAT=901, RM=1, FX=0\\FY=0\\FZ=-30*DIF(5)-100*(DZ(40)-0.1)-20*VZ(40)\n"
+      "DIFF/5, FUNCTION=DZ(40)-0.1\nBUSHING/1, I=40, J=1, K=100,100,0, C=1,1,1, CT=1,1,1, KT=10,10,";
+  for (const std::string turning : {"10\n", "0\n"}) {
+    const Rest rest(boom("VARVAL(11)", 1.9) + beside + turning);
+    ASSERT_TRUE(rest.op) << rest.op.error().message;
+    EXPECT_NEAR(length_of(*rest.op), 1.9, 1e-14);
+    EXPECT_NEAR(rest.op->poses[2].r.z, 0.1, 1e-14);
+    EXPECT_LT(rest.report.iterations, 80) << turning;
+  }
+}
+
+// Newton's first step winds the integrator up: forces balance, and no step from there brings its input closer to zero.
+TEST(FreeStates, a_search_from_an_integrator_that_is_wound_up_ends_soon) {
+  const Rest rest(
+      "ACCGRAV/KGRAV=-10\nMARKER/29, PART=1, FLOATING\nPART/2, MASS=19.18, CM=20, IP=1,1,1, "
+      "QG=2,0,0.069\nMARKER/20\nDIFF/1, FUNCTION=TANH(5*(DZ(20)+0.764))\n"
+      "BUSHING/1, I=20, J=1, K=100,100,0, KT=10,10,10\n"
+      "VFORCE/2, I=20, JFLOAT=29, RM=1, FX=0\\FY=0\\FZ=-2551*(DZ(20)+0.764)-39.46*DIF(1)-255.1*VZ(20)\n");
+  ASSERT_TRUE(rest.op) << rest.op.error().message;
+  EXPECT_NEAR(rest.op->poses[1].r.z, -0.764, 1e-12);
+  EXPECT_LE(rest.report.iterations, 30);
+}
+
 // The number is that of the point nearest to rest, not of the first.
 TEST(FreeStates, what_does_not_come_to_rest_is_told_by_its_least_rate) {
   Rest rest(boom("VARVAL(11)", 1.9, "10"));

@@ -75,7 +75,9 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     }
     if (merit < lowest_merit_ || (merit == 0 && equations_.yardstick() == Yardstick::part))
       lowest_merit_ = merit, lowest_ = op;
-    if (iteration_ > improved_ + (spent ? descent_patience / 4 : descent_patience)) return false;
+    // Where forces are balanced and Newton's steps do not help, states that are held go on by ever less.
+    const int patience = inputs_lead_ ? descent_patience / 8 : spent ? descent_patience / 4 : descent_patience;
+    if (iteration_ > improved_ + patience) return false;
     const double level = std::sqrt(merit_);
     if (level <= near_balance || equations_.excess() <= 1e4) {
       if (finish(op)) return true;
@@ -319,8 +321,12 @@ std::optional<Eigen::VectorXd> Descent::solve(double hold) {
   // A state that nothing determines takes its time as everything does on the way down.
   const double hold_states = std::max(hold, newton_state_hold);
   bool factored = equations_.factor(lu_, equations_.tangent(hold, held_states_ ? hold_states : 0));
+  // Where coordinates are free, holding states does not help, and those that are determined would only be late.
   if (!factored && !held_states_)
-    factored = (held_states_ = true) && equations_.factor(lu_, equations_.tangent(hold, hold_states));
+    factored = held_states_ = equations_.factor(lu_, equations_.tangent(hold, hold_states));
+  // Beside states that are free, free coordinates are held by as little, or no Newton's step leads inputs to zero.
+  if (!factored && hold == 0 && held_states_)
+    factored = equations_.factor(lu_, equations_.tangent(newton_state_hold, newton_state_hold));
   if (!factored) return std::nullopt;
   Eigen::MatrixXd step = -equations_.residual();
   lu_.solve(step);
