@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/joined_sets.h"
 #include "analysis/part_names.h"
 #include "analysis/settled_reactions.h"
+#include "base/joined_sets.h"
 #include "mechanics/stiction_source.h"
 #include "system/sources.h"
 

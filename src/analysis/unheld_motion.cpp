@@ -9,8 +9,8 @@
 #include <set>
 
 #include "analysis/comparable_scales.h"
-#include "analysis/joined_sets.h"
 #include "analysis/part_names.h"
+#include "base/joined_sets.h"
 
 namespace dynalin {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/placed_box.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin {
 
@@ -142,10 +143,6 @@ std::vector<AcrossEdges> across_edges(const ConvexBody& I, const RelativeFrame<d
 }
 
 }  // namespace
-
-RelativeFrame<double> seen_back(const RelativeFrame<double>& F) {
-  return {-turned_back(F, F.p), {F.x.x, F.y.x, F.z.x}, {F.x.y, F.y.y, F.z.y}, {F.x.z, F.y.z, F.z.z}};
-}
 
 ConvexParting convex_parting(const ConvexBody& I, const RelativeFrame<double>& I_from_J, const ConvexBody& J) {
   const double size = std::min(I.size(), J.size()), as_near = solid::coincidence * size;

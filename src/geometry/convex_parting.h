@@ -22,7 +22,4 @@ struct ConvexParting {
 // I stands in the axes of J.
 ConvexParting convex_parting(const ConvexBody& I, const RelativeFrame<double>& I_from_J, const ConvexBody& J);
 
-// J seen from I.
-RelativeFrame<double> seen_back(const RelativeFrame<double>& I_from_J);
-
 }  // namespace dynalin

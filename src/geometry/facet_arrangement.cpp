@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/joined_sets.h"
+
 namespace dynalin {
 
 namespace {
@@ -33,23 +35,6 @@ struct EdgeCrossing {
   double along;  // 0 to 1, as the side of the triangle runs
   Vector point;
   bool leaves;  // the other body, as the side runs
-};
-
-// Numbers that belong together.
-class Groups {
- public:
-  std::size_t add() {
-    above_.push_back(above_.size());
-    return above_.size() - 1;
-  }
-  std::size_t of(std::size_t k) {
-    while (above_[k] != k) k = above_[k] = above_[above_[k]];
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) { above_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> above_;
 };
 
 // All crossings of two surfaces and what they bound.
@@ -238,7 +223,7 @@ class SurfaceCrossings {
   const PlacedSurface &I_, &J_;
   bool consistent_ = true;
   std::vector<EdgeCrossing> crossings_;
-  Groups groups_;  // of crossings, then of vertices
+  JoinedSets groups_;  // of crossings, then of vertices
   std::unordered_map<std::uint64_t, Cut> cuts_;
   std::array<std::unordered_set<std::uint64_t>, 2> crossed_;  // edges
   std::array<std::unordered_map<Index, std::size_t>, 2> inside_;

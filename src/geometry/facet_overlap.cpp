@@ -6,6 +6,7 @@
 
 #include "geometry/facet_arrangement.h"
 #include "geometry/facet_pairs.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin {
 
@@ -122,14 +123,6 @@ std::vector<Overlap> integrals(const std::vector<SurfacePiece>& pieces, const Pl
   return volumes;
 }
 
-// The other body, from the one that stands in this frame.
-RelativeFrame<double> seen_from(const RelativeFrame<double>& f) {
-  return {-Vector{dot(f.x, f.p), dot(f.y, f.p), dot(f.z, f.p)},
-          {f.x.x, f.y.x, f.z.x},
-          {f.x.y, f.y.y, f.z.y},
-          {f.x.z, f.y.z, f.z.z}};
-}
-
 // Whether a lump of one of the bodies that crosses nothing is wholly in the other one: in what the facets of B bound,
 // or in a cavity in what is around them.
 bool engulfs(const SurfaceArrangement& found, bool of_I, const FacetBody& A, const RelativeFrame<double>& A_from_B,
@@ -160,7 +153,7 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
     found.definite = crossing.consistent;
     if (!found.definite) continue;
     found.engulfed =
-        engulfs(crossing, true, I, beside, J, cavity) || engulfs(crossing, false, J, seen_from(beside), I, false);
+        engulfs(crossing, true, I, beside, J, cavity) || engulfs(crossing, false, J, seen_back(beside), I, false);
     found.volumes = integrals(crossing.pieces, placed_I, placed_J, size);
     return found;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/smooth_step.h"
 #include "geometry/facet_overlap.h"
 #include "geometry/facet_pairs.h"
 #include "geometry/prism.h"
@@ -109,8 +110,7 @@ template <class T>
 T step(const T& x, double from, double to) {
   if (value_of(x) <= from) return T(0.0);
   if (value_of(x) >= to) return T(1.0);
-  const T s = (x - from) / (to - from);
-  return s * s * (3.0 - 2.0 * s);
+  return smooth_step(T((x - from) / (to - from)));
 }
 
 // The surface of one body that is in the other one, as seen from where that comes from.

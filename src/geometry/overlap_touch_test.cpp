@@ -15,6 +15,7 @@
 #include "geometry/polygon.h"
 #include "geometry/prism.h"
 #include "geometry/revolution.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin::overlap_touch_test {
 namespace {
@@ -71,12 +72,6 @@ std::vector<Touch<Seeded>> seeded_touches(const FacetBody& I, const RelativeFram
   return list;
 }
 
-RelativeFrame<double> from_other(const RelativeFrame<double>& f) {
-  return {-Vector{dot(f.x, f.p), dot(f.y, f.p), dot(f.z, f.p)},
-          {f.x.x, f.y.x, f.z.x},
-          {f.x.y, f.y.y, f.z.y},
-          {f.x.z, f.y.z, f.z.z}};
-}
 void expect_near(const Vector& a, const Vector& b, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
 }
@@ -247,7 +242,7 @@ TEST_F(overlap_touch, what_is_apart_is_as_far_as_its_nearest_features) {
   for (int k = 0; k < 100; ++k) {
     const auto f = pose(1.5);
     std::vector<Touch<double>> one(most_overlaps), other(most_overlaps);
-    touch_overlaps<double>(a, f, a, false, one), touch_overlaps<double>(a, from_other(f), a, false, other);
+    touch_overlaps<double>(a, f, a, false, one), touch_overlaps<double>(a, seen_back(f), a, false, other);
     if (one.front().closed()) continue;
     EXPECT_NEAR(one.front().gap, other.front().gap, 1e-12);
     double by_vertices = 1e300;
@@ -298,7 +293,7 @@ TEST_F(overlap_touch, is_the_same_seen_from_either_body) {
   int seen = 0;
   for (int k = 0; k < 200; ++k) {
     const auto f = pose(0.6);
-    auto one = touches(a, f, s), other = touches(s, from_other(f), a);
+    auto one = touches(a, f, s), other = touches(s, seen_back(f), a);
     if (one.empty()) continue;
     ++seen;
     ASSERT_EQ(one.size(), other.size());
@@ -410,7 +405,7 @@ TEST_F(overlap_touch, of_what_is_pointed_and_round_is_as_deep_as_it_is) {
       wall = facets_of_box({-2, -1, -2}, {2, 0, 2});
   const auto expect_depth = [](const FacetBody& I, const RelativeFrame<double>& f, const FacetBody& J, double depth,
                                double tolerance) {
-    for (const auto& list : {touches(I, f, J), touches(J, from_other(f), I)}) {
+    for (const auto& list : {touches(I, f, J), touches(J, seen_back(f), I)}) {
       ASSERT_EQ(list.size(), 1u);
       EXPECT_TRUE(list[0].defined);
       EXPECT_NEAR(-list[0].gap, depth, tolerance);

@@ -13,6 +13,7 @@
 #include "geometry/low_on_circle.h"
 #include "geometry/overlap_touch.h"
 #include "geometry/plane_touch.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin {
 
@@ -234,9 +235,7 @@ std::size_t touch_count(const Side& I, const Side& J) {
 template <class T>
 void find_touches(const Side& I, const Side& J, const RelativeFrame<T>& R, std::span<Touch<T>> out) {
   if (direct_count(I, J) > 0) return direct(I, J, R, out);
-  const auto from_I = [&](const Vec3<T>& v) { return Vec3<T>{dot(R.x, v), dot(R.y, v), dot(R.z, v)}; };
-  const RelativeFrame<T> J_from_I{-from_I(R.p), {R.x.x, R.y.x, R.z.x}, {R.x.y, R.y.y, R.z.y}, {R.x.z, R.y.z, R.z.z}};
-  direct(J, I, J_from_I, out);
+  direct(J, I, seen_back(R), out);
   for (Touch<T>& t : out) {
     t.normal = -(R.x * t.normal.x + R.y * t.normal.y + R.z * t.normal.z);
     t.point = R.p + R.x * t.point.x + R.y * t.point.y + R.z * t.point.z;

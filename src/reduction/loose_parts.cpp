@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "base/joined_sets.h"
 #include "reduction/symmetric_factors.h"
 
 namespace dynalin::reduction {
@@ -18,20 +18,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double rounding = 1e-14;  // of an entry beside the diagonal, in parts of it
-
-// Nodes that an entry of the stiffness connects have one root.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t k) {
-    while (above_[k] != k) k = above_[k] = above_[above_[k]];
-    return k;
-  }
-  void connect(std::size_t a, std::size_t b) { above_[root(a)] = root(b); }
-
- private:
-  std::vector<std::size_t> above_;
-};
 
 }  // namespace
 
@@ -46,7 +32,7 @@ std::optional<LoosePart> loose_part(const FiniteElementModel& model, NodeLabel s
   std::vector<std::size_t> node_of;
   for (const Freedom& f : model.freedoms)
     node_of.push_back(nodes.try_emplace(Freedom{f.node, f.direction == 0 ? 0 : 1}, nodes.size()).first->second);
-  Parts parts(nodes.size());
+  JoinedSets parts(nodes.size());  // of nodes that an entry of the stiffness connects
   const VectorXd diagonal = K.diagonal();
   std::vector<Index> empty;
   for (Index c = 0; c < K.cols(); ++c) {
@@ -55,7 +41,7 @@ std::optional<LoosePart> loose_part(const FiniteElementModel& model, NodeLabel s
       const double size = std::sqrt(std::abs(diagonal[c] * diagonal[it.row()]));
       if (it.value() == 0 || (it.row() != c && std::abs(it.value()) <= rounding * size)) continue;
       any = true;
-      parts.connect(node_of[static_cast<std::size_t>(c)], node_of[static_cast<std::size_t>(it.row())]);
+      parts.join(node_of[static_cast<std::size_t>(c)], node_of[static_cast<std::size_t>(it.row())]);
     }
     if (!any) empty.push_back(c);
   }
@@ -67,11 +53,11 @@ std::optional<LoosePart> loose_part(const FiniteElementModel& model, NodeLabel s
     return LoosePart{all + " no stiffness at all", empty.front()};
   }
   std::set<std::size_t> roots;
-  for (const std::size_t node : node_of) roots.insert(parts.root(node));
+  for (const std::size_t node : node_of) roots.insert(parts.of(node));
   const auto seen = nodes.find({seen_from, 1});
   if (seen == nodes.end() || roots.size() == 1) return std::nullopt;
   const auto apart =
-      std::ranges::find_if(node_of, [&](std::size_t node) { return parts.root(node) != parts.root(seen->second); });
+      std::ranges::find_if(node_of, [&](std::size_t node) { return parts.of(node) != parts.of(seen->second); });
   const Index row = apart - node_of.begin();
   return LoosePart{fmt::format("the stiffness falls into {} parts: node {} is not connected to node {}", roots.size(),
                                model.freedoms[static_cast<std::size_t>(row)].node, seen_from),

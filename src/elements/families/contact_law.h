@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/dual.h"
+#include "base/smooth_step.h"
 #include "base/vec3.h"
 
 namespace dynalin {
@@ -27,19 +28,11 @@ struct SlipFriction {
   double stiction = 0, transition = 0;  // v_s < v_d [length/time]
 };
 
-namespace detail {
-// The cubic from 0 at 0 to 1 at 1, level at both ends.
-template <class T>
-T smooth_step(const T& s) {
-  return s * s * (3.0 - 2.0 * s);
-}
-}  // namespace detail
-
 // Before it is cut off at zero.
 template <class T>
 T pressure(const Pressure& p, const T& g, const T& rate) {
   using std::pow;
-  const T share = value_of(g) < p.full_damping ? detail::smooth_step(T(g * (1 / p.full_damping))) : T(1.0);
+  const T share = value_of(g) < p.full_damping ? smooth_step(T(g * (1 / p.full_damping))) : T(1.0);
   return p.stiffness * pow(g, p.exponent) + p.damping * share * rate;
 }
 
@@ -53,7 +46,7 @@ T friction_slope(const SlipFriction& f, const Vec3<T>& slip) {
   const T v = sqrt(square);
   if (speed >= f.transition) return f.sliding / v;
   const T s = (v - f.stiction) * (1 / (f.transition - f.stiction));
-  return (f.at_rest + (f.sliding - f.at_rest) * detail::smooth_step(s)) / v;
+  return (f.at_rest + (f.sliding - f.at_rest) * smooth_step(s)) / v;
 }
 
 }  // namespace dynalin

@@ -33,6 +33,7 @@
 #include <cstdint>
 
 #include "base/dual.h"
+#include "base/smooth_step.h"
 
 namespace dynalin {
 
@@ -43,11 +44,6 @@ enum class FrictionEffect : std::uint8_t { all, stiction, sliding };
 inline constexpr double elastic_share = 0.9;
 
 enum class FrictionFormulation : std::uint8_t { stick_slip, lugre };
-
-template <class T>
-T smooth_step(const T& x) {  // from 0 at 0 to 1 at 1
-  return x * x * (3.0 - 2.0 * x);
-}
 
 template <class T, std::size_t n>
 T squared(const std::array<T, n>& v) {
