@@ -13,6 +13,7 @@
 #include "geometry/flat_test_support.h"
 #include "geometry/moved_frame_test_support.h"
 #include "geometry/revolution.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin::convex_ellipsoid_touch_test {
 namespace {

@@ -13,6 +13,7 @@
 #include "geometry/convex_parting.h"
 #include "geometry/prism.h"
 #include "geometry/revolution.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin::convex_touch_test {
 namespace {

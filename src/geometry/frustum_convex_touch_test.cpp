@@ -12,6 +12,7 @@
 #include "geometry/flat_test_support.h"
 #include "geometry/frustum_touch.h"
 #include "geometry/moved_frame_test_support.h"
+#include "geometry/seen_back.h"
 
 namespace dynalin::frustum_convex_touch_test {
 namespace {
