@@ -286,7 +286,7 @@ void BoundExpression::fill_rates(const Motion& motion, ExpressionScratch& scratc
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     const BoundAtom& a = atoms_[k];
     Taylor& x = scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
-    const bool rests = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+    const bool rests = is_equilibrium(motion.mode);
     if (a.kind == Kind::time) x.rate = rests ? 0.0 : 1.0;
     if (a.kind == Kind::measure) x.rate = atom_along_motion(a, motion).rate;
     if (a.kind != Kind::channel) continue;

@@ -48,17 +48,23 @@ enum class AnalysisMode : int {
   quasi_statics = 6,
   linear = 7
 };
+// Where nothing moves, and only TIME goes on.
+inline bool is_equilibrium(AnalysisMode mode) {
+  return mode == AnalysisMode::statics || mode == AnalysisMode::quasi_statics;
+}
 
 // Values that outlive an evaluation and change only with an accepted step: total angles for the turn count.
 using Memory = std::vector<double>;
 
 class DelayHistories;  // what DELAY reads: values in the past (mechanics/delay_history.h)
 
-// How an integration over time goes, up to its last step: what CPU, HSIZE, ORDER, NJAC and NRHS return.
+// How an integration over time goes, up to its last step: what CPU, HSIZE, ORDER, NJAC and NRHS return, and how far off
+// it may be.
 struct IntegrationProgress {
   double processor_time = 0;  // of the program [s]
   double step_size = 0;       // [time]
   double order = 0, jacobians = 0, evaluations = 0;
+  double left_over = 0;  // errors of some steps that have not died away, as a part of the model's length
 };
 
 struct Motion {

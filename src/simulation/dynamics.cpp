@@ -33,6 +33,7 @@ constexpr double least_limit_of_moves =
     1e-8;  // of points that are made consistent, in lengths of the model and radians
 constexpr int steps_held_by_rounding = 500;
 constexpr double same_instant = 1e-12;   // of the whole time
+constexpr double errors_that_live = 10;  // of steps, in a motion that has come to rest
 constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to resolve: of the whole time
 
 class Dynamics {
@@ -348,6 +349,7 @@ class Dynamics {
   void count() {
     statistics_ = followed_by(counted_before_, integrator_->statistics());
     point_.progress = progress_of(statistics_);
+    point_.progress.left_over = errors_that_live * bounds_.tolerance.relative;
   }
 
   const System& system_;

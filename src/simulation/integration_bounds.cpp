@@ -16,12 +16,12 @@ constexpr double largest_part_of_error = 0.1;  // in a step, of what rounding le
 // Of the range of a table, what steps may pass over: ERROR within these.
 constexpr double least_passed_over = 1e-6, most_passed_over = 1e-3;
 
-}  // namespace
-
+// What a step may be off, as a part of the model's length.
 double error_of_step(const IntegratorSettings& settings) {
   return std::clamp(part_of_error * std::pow(settings.error.value_or(default_error), power_of_error), 1e-14, 1e-3);
 }
-double left_by_last_steps(const IntegratorSettings& settings) { return 10 * error_of_step(settings); }
+
+}  // namespace
 
 IntegrationBounds::IntegrationBounds(const IntegratorSettings& settings, const OutputTimes& times)
     : error(settings.error.value_or(default_error)) {

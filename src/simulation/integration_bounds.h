@@ -16,9 +16,4 @@ struct IntegrationBounds {
   StepBounds steps;
 };
 
-// What a step may be off, as a part of the model's length.
-double error_of_step(const IntegratorSettings&);
-// What a motion that has come to rest is still off of it: errors of some steps that have not died away.
-double left_by_last_steps(const IntegratorSettings&);
-
 }  // namespace dynalin

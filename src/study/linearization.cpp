@@ -14,7 +14,6 @@
 #include "routine/routine_findings.h"
 #include "selected_modes/selected_modes.h"
 #include "selected_modes/selection_of_modes.h"
-#include "simulation/integration_bounds.h"
 
 namespace dynalin {
 
@@ -118,9 +117,7 @@ void forget_bounds(EigenSolution& modes) {
 // What an integration that has led to the point has left of its errors, as a part of the model's length.
 double left_by_integration(const Linearization& of) {
   const AnalysisMode mode = of.point.mode;
-  const bool integrated =
-      of.point.progress.order > 0 && (mode == AnalysisMode::dynamics || mode == AnalysisMode::linear);
-  return integrated ? left_by_last_steps(of.system->model().settings.integrator) : 0.0;
+  return mode == AnalysisMode::dynamics || mode == AnalysisMode::linear ? of.point.progress.left_over : 0.0;
 }
 
 void add_reference_caution(const Linearization& of, const EigenSolution* modes, Diagnostics& remarks) {

@@ -130,6 +130,12 @@ TEST_F(MotionCaution, is_not_of_digits_that_nobody_states) {
   EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=30, STEPS=30\nLINEAR/EIGENSOL\n"),
               ::testing::Not(::testing::HasSubstr(code)));
   EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=12, STEPS=30\nLINEAR/EIGENSOL\n"), ::testing::HasSubstr(code));
+  // ERROR of a command says how many, as that of the dataset does.
+  EXPECT_THAT(remarks(swings, "INTEGRATOR/ERROR=1E-8\nSIMULATE/DYNAMICS, END=30, STEPS=30\nLINEAR/EIGENSOL\n"),
+              ::testing::HasSubstr(code));
+  EXPECT_THAT(remarks(swings, "SIMULATE/DYNAMICS, END=18, STEPS=18\nLINEAR/EIGENSOL\n"), ::testing::HasSubstr(code));
+  EXPECT_THAT(remarks(swings, "INTEGRATOR/ERROR=1E-2\nSIMULATE/DYNAMICS, END=18, STEPS=18\nLINEAR/EIGENSOL\n"),
+              ::testing::Not(::testing::HasSubstr(code)));
 }
 
 // Nodes have their states along global axes whatever RM says.

@@ -240,7 +240,7 @@ ContactKernel::ContactKernel(const std::vector<ContactForce>& laws, const std::v
 
 PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, bool with_partials) {
   const ContactForce& c = *p.law;
-  const bool at_rest = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+  const bool at_rest = is_equilibrium(motion.mode);
   const bool rubs = c.friction && (c.friction_in_statics || !at_rest);
   RelativeWrench w;
   w.depends_on_rate = true;

@@ -58,7 +58,7 @@ void DelayKernel::equations(const Motion& motion, Equations& eq) const {
   for (const Call& c : calls_) {
     const std::int32_t row = begin_definition(motion, eq, c.unknown);
     const double tau = c.never ? 0.0 : c.lag.value(motion, eq.scratch);
-    const bool rests = motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
+    const bool rests = is_equilibrium(motion.mode);
     const bool linear = motion.mode == AnalysisMode::linear;
     if (c.state >= 0) add_state(c, motion, eq, tau);
     if (!rests && !linear) {

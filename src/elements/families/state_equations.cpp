@@ -14,8 +14,6 @@ namespace {
 
 constexpr double singular_to_rounding = 1e-14;  // of rows whose largest entry is 1
 
-bool is_static(AnalysisMode mode) { return mode == AnalysisMode::statics || mode == AnalysisMode::quasi_statics; }
-
 }  // namespace
 
 StateEquationsKernel::StateEquationsKernel(std::vector<StateEquationsLaw> laws, const std::vector<ElementLabel>& labels,
@@ -68,7 +66,7 @@ bool StateEquationsKernel::add_rate_equation(std::int32_t algebraic, std::int32_
 }
 
 bool StateEquationsKernel::rests(const Element& e, const Motion& motion) {
-  return e.law.in_statics_only && !is_static(motion.mode);
+  return e.law.in_statics_only && !is_equilibrium(motion.mode);
 }
 
 void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const {
@@ -102,7 +100,7 @@ void StateEquationsKernel::equations(const Motion& motion, Equations& eq) const 
 }
 
 void StateEquationsKernel::remember(const Motion& motion, Memory& memory) const {
-  if (!is_static(motion.mode)) return;
+  if (!is_equilibrium(motion.mode)) return;
   for (const Element& e : elements_) {
     for (std::size_t n = 0; n < e.kept_outputs.size(); ++n) {
       memory[static_cast<std::size_t>(e.kept_outputs[n])] =

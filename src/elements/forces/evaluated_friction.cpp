@@ -125,7 +125,7 @@ EvaluatedFriction EvaluatedFriction::at(const PlacedFriction& p, const PairMotio
     if (p.first_state < 0) return D(0.0);
     return D(motion.state[static_cast<std::size_t>(p.first_state) + c], first_creep_seed + c);
   };
-  if (p.first_state >= 0 && in_equilibrium(motion)) out.creep = creep_here(p, I, motion);
+  if (p.first_state >= 0 && is_equilibrium(motion.mode)) out.creep = creep_here(p, I, motion);
   const Vec3<D> axis = axis_of(f, I), w = turning(I);
   const D pressing = load(f, force, torque, axis, I.p.z.value, rounding, out.sizes);
   const auto slips = [&]<std::size_t n>(std::array<D, n> u, std::array<D, n> z, std::array<double, n> preload,

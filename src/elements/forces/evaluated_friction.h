@@ -57,9 +57,4 @@ inline bool slips(const JointFriction& f, double speed) {
   return speed > (f.law.has_bristles() ? no_slip * f.law.stiction_velocity : 0);
 }
 
-// Where nothing slips (friction_at_rest.h).
-inline bool in_equilibrium(const Motion& motion) {
-  return motion.mode == AnalysisMode::statics || motion.mode == AnalysisMode::quasi_statics;
-}
-
 }  // namespace dynalin

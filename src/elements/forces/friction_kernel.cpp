@@ -94,7 +94,7 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element((*labels_)[k]);
     w.clear();
     wrench(motion, k, eq.wants_partials(), w);
-    const bool acts = p.joint && !(f.rests_in_statics && in_equilibrium(motion));
+    const bool acts = p.joint && !(f.rests_in_statics && is_equilibrium(motion.mode));
     const Evaluated at = acts ? Evaluated::at(p, w.pair, motion) : Evaluated::inactive(p, motion);
     for (std::size_t c = 0; c < f.component_count(); ++c) {
       const std::int32_t row = begin_definition(motion, eq, p.first_algebraic + static_cast<std::int32_t>(c));
@@ -113,7 +113,7 @@ void JointFrictionKernel::add_creep(const Placed& p, std::size_t component, cons
                                     const Motion& motion, Equations& eq) const {
   const std::int32_t z = p.first_state + static_cast<std::int32_t>(component), row = eq.state_row(z);
   const auto k = static_cast<std::size_t>(z);
-  const bool rests = in_equilibrium(motion);
+  const bool rests = is_equilibrium(motion.mode);
   eq.add_residual(row, motion.state_rate[k] + (rests ? motion.state[k] : 0.0));
   eq.add(PartialBy::state_rate, row, z, 1.0);
   eq.add(PartialBy::state, row, z, rests ? 1.0 : 0.0);
@@ -122,7 +122,7 @@ void JointFrictionKernel::add_creep(const Placed& p, std::size_t component, cons
 
 // What a search for an equilibrium passes on its way is no motion.
 void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
-  if (in_equilibrium(motion)) return;
+  if (is_equilibrium(motion.mode)) return;
   for (const Placed& p : placed_) {
     if (p.first_memory < 0) continue;
     std::array<double, 3> creep{};
@@ -219,7 +219,7 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
 void JointFrictionKernel::vanishing(const Motion& motion, const Layout& layout, std::vector<VanishingSize>& out) const {
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
-    if (!p.joint || (p.element->rests_in_statics && in_equilibrium(motion))) continue;
+    if (!p.joint || (p.element->rests_in_statics && is_equilibrium(motion.mode))) continue;
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
     const Evaluated at = Evaluated::at(p, pair, motion);
     for (const Evaluated::Sizes::Vanishing& none : at.sizes.vanishing()) {
