@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/initial.h"
+#include "system/column_builder.h"
 
 namespace dynalin {
 
@@ -20,6 +21,50 @@ double largest(const std::vector<double>& v) {
   double most = 0;
   for (const double x : v) most = std::max(most, std::abs(x));
   return most;
+}
+
+// The partials of algebraic equations by their own unknowns; those that have no value say that theirs stay.
+ColumnMatrix algebraic_block(const ColumnMatrix& whole, std::int32_t first, const std::vector<bool>& undefined) {
+  const auto count = static_cast<std::int32_t>(undefined.size());
+  const auto is_defined = [&](std::int32_t k) {
+    return k >= 0 && k < count && !undefined[static_cast<std::size_t>(k)];
+  };
+  return compressed_columns(count, count, [&](auto&& take) {
+    for (std::int32_t c = 0; c < count; ++c) {
+      for_each_in_column(whole, first + c, [&](std::int32_t r, double v) {
+        if (is_defined(r - first)) take(r - first, c, v);
+      });
+      if (!is_defined(c)) take(c, c, 1.0);
+    }
+  });
+}
+
+// Values begin at their IC, at which what reads them need have none, as 1/VARVAL(1) at 0: those that are defined come
+// first, by Newton's method, then what reads them.
+void define_values(StaticEquations& equations, OperatingPoint& op) {
+  constexpr int patience = 8;  // steps without another one that is defined
+  const std::int32_t first = equations.augmented().algebraic(0);
+  std::vector<bool> undefined(op.algebraic.size(), false);
+  auto before = static_cast<std::ptrdiff_t>(undefined.size());
+  SparseLu lu;
+  for (int fruitless = 0; fruitless < patience; ++fruitless) {
+    equations.evaluate(op, true);
+    Eigen::MatrixXd step = -equations.residual().segment(first, static_cast<Eigen::Index>(undefined.size()));
+    for (std::size_t k = 0; k < undefined.size(); ++k) {
+      double& missing = step(static_cast<Eigen::Index>(k), 0);
+      undefined[k] = !std::isfinite(missing);
+      if (undefined[k]) missing = 0;
+    }
+    const auto left = std::ranges::count(undefined, true);
+    if (left == 0) return;
+    if (left < before) fruitless = 0;
+    before = left;
+    ColumnMatrix block = algebraic_block(equations.holding_matrix(), first, undefined);
+    if (!finite(block.value) || !equations.factor(lu, std::move(block))) return;
+    lu.solve(step);
+    if (!step.allFinite()) return;
+    for (std::size_t k = 0; k < undefined.size(); ++k) op.algebraic[k] += step(static_cast<Eigen::Index>(k), 0);
+  }
 }
 
 }  // namespace
@@ -65,6 +110,7 @@ void settle(StaticEquations& equations, OperatingPoint& op) {
 void settle_after_motion(StaticEquations& equations, OperatingPoint& op) {
   constexpr double rest = 1e-12;  // rounding of solutions in matrices as they are
   const std::vector<double> reactions = op.lambda, values = op.algebraic;
+  define_values(equations, op);
   settle(equations, op);
   bool vanished = false;
   const auto vanish = [&](double& now) {

@@ -105,20 +105,24 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
                        std::vector<std::string> history) {
   const System& system = equations.system();
   Failure f{"statics", "no equilibrium was found", std::move(history), "no-equilibrium"};
-  if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
-    f.message += fmt::format(": {}", fmt::join(unheld, "; ")) + exhausted_friction(system, system.motion(op));
-    return f;
-  }
-  settle(equations, op);
-  equations.evaluate(op, true);
-  if (const Eigen::VectorXd sum = equations.residual() + equations.rounding(); !sum.allFinite()) {
+  const auto no_value = [&] {
+    equations.evaluate(op, true);
+    const Eigen::VectorXd sum = equations.residual() + equations.rounding();
+    if (sum.allFinite()) return false;
     f.message = system.undefined_value(system.motion(op)), f.code = "undefined-value";
     for (Eigen::Index k = 0; k < sum.size() && f.message.empty(); ++k) {
       if (!std::isfinite(sum(k)))
         f.message = "a term in the equation of " + equations.equation_text(k) + " has no finite value or slope";
     }
+    return true;
+  };
+  if (no_value()) return f;
+  if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
+    f.message += fmt::format(": {}", fmt::join(unheld, "; ")) + exhausted_friction(system, system.motion(op));
     return f;
   }
+  settle(equations, op);
+  if (no_value()) return f;
   if (equations.has_undefined_partials()) {
     if (const std::string reason = system.undefined_value(system.motion(op)); !reason.empty())
       f.message += ": " + reason;

@@ -61,4 +61,29 @@ Span join(const Span& a, const Span& b) {
   return {a.source, begin, end - begin};
 }
 
+std::string on_one_line(const Span& span, std::size_t most) {
+  std::string line;
+  const std::string_view text = span.text();
+  bool is_comment = false, begins = false;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      is_comment = false, begins = true;
+    } else if (is_comment || (begins && (c == ' ' || c == '\t'))) {
+      continue;
+    } else if (begins && c == ',') {
+      begins = false;
+      while (!line.empty() && line.back() == ' ') line.pop_back();
+      line += ' ';
+    } else if (c == '!') {
+      is_comment = true;
+    } else if (const bool is_blank = c == ' ' || c == '\t'; !is_blank || (!line.empty() && line.back() != ' ')) {
+      begins = false;
+      line += is_blank ? ' ' : c;
+    }
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  if (line.size() > most) line.resize(most), line += " …";
+  return line;
+}
+
 }  // namespace dynalin

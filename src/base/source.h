@@ -46,4 +46,8 @@ struct Span {
 // From the start of a to the end of b (same source).
 Span join(const Span& a, const Span& b);
 
+// For messages: what is written there without the line ends, comments and commas by which it goes on, of more than
+// `most` bytes the beginning.
+std::string on_one_line(const Span&, std::size_t most = std::string::npos);
+
 }  // namespace dynalin

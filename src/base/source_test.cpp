@@ -69,5 +69,13 @@ TEST(span, joins_from_the_start_of_the_first_to_the_end_of_the_last) {
 
 TEST(span, without_source_has_no_text) { EXPECT_EQ(Span{}.text(), ""); }
 
+TEST(span, is_told_on_one_line) {
+  const SourceText source("a.adm", "FUNCTION=  DX(1,2)*\n, (3  + ! a comment\r\n ,4)\n!\n, -5 \n");
+  const Span all{&source, 9, static_cast<std::uint32_t>(source.text().size()) - 9};
+  EXPECT_EQ(on_one_line(all), "DX(1,2)* (3 + 4) -5");
+  EXPECT_EQ(on_one_line(all, 8), "DX(1,2)* …");
+  EXPECT_EQ(on_one_line({&source, 11, 7}), "DX(1,2)");
+}
+
 }  // namespace
 }  // namespace dynalin::source_test

@@ -296,6 +296,7 @@ void StatementReader::look_up(Statement& statement) {
   static constexpr std::array<std::string_view, 2> endings = {"QUIT", "EXIT"};
   const auto ends = [&](std::string_view ending) { return equal_ignoring_case(word, ending); };
   if (language_ != Language::dataset && std::ranges::any_of(endings, ends)) hint = "STOP ends the run";
+  if (language_ == Language::dataset && ends("ADAMS")) hint = "a title is the first line of the file, of whatever kind";
   if (hint.empty() && !nearest.empty()) hint = fmt::format("did you mean {}?", nearest);
   diagnostics_.error(language_ == Language::dataset ? "unknown-statement" : "unknown-command", statement.keyword(),
                      fmt::format("there is no {} {}", noun, quoted(word)), std::move(hint));

@@ -198,6 +198,12 @@ TEST(unknown_statements, are_reported_with_the_nearest_name_and_nothing_else) {
   EXPECT_EQ(heads(parsed), (Texts{"/1", "PART/1"}));
 }
 
+TEST(unknown_statements, may_be_a_title_that_comes_too_late) {
+  const auto parsed = read("! comment\nADAMS/View model name: rig\nPART/1");
+  EXPECT_EQ(problems(parsed.diagnostics), Texts{"3:1 unknown-statement"});
+  EXPECT_EQ(parsed.diagnostics.items()[0].hint, "a title is the first line of the file, of whatever kind");
+}
+
 TEST(unknown_statements, that_are_ambiguous_list_what_they_could_be) {
   const auto parsed = read("MAT/1");
   EXPECT_EQ(problems(parsed.diagnostics), Texts{"2:1 ambiguous-keyword"});

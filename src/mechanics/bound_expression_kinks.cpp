@@ -66,7 +66,8 @@ void BoundExpression::find_kink(const Motion& motion, double length, const Eleme
   ExpressionScratch scratch;
   scratch.partials.resize(atoms_.size());
   const auto add = [&](const std::string& what) {
-    found.add(Kink{&of, fmt::format("{} of {} {}", expression_.at().text(), of.full_text(), what)});
+    constexpr std::size_t told = 100;  // bytes
+    found.add(Kink{&of, fmt::format("{} of {} {}", on_one_line(expression_.at(), told), of.full_text(), what)});
   };
   // The size of a vector that is zero grows whichever way it moves.
   expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);

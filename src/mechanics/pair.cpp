@@ -100,6 +100,16 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
   return out;
 }
 
+PairForce around_origin(double on_distance, bool with_partials) {
+  PairForce out;
+  out.reaction = Reaction::at_J;
+  out.components = Components::force;
+  if (!with_partials) return out;
+  const Matrix3 on_delta = on_distance * Matrix3::identity();
+  out.force_on_position.origin_I = on_delta, out.force_on_position.origin_J = -on_delta;
+  return out;
+}
+
 BlockPartials partials_by(const PairBlock& b, const PairForce& f) {
   const auto on_position = [&](const MarkerPartials& at, const MarkerPartials& by_rate) {
     const Matrix3 &origin = b.of_J ? at.origin_J : at.origin_I, &axes = b.of_J ? at.axes_J : at.axes_I;

@@ -64,6 +64,8 @@ struct LineMagnitude {
   double value = 0, on_distance = 0, on_rate = 0;
 };
 PairForce along_line(const PairMotion&, const LineMagnitude&, bool with_partials);
+// The same of a force that is a multiple of Δ, where Δ = 0: δf = F_d δΔ.
+PairForce around_origin(double on_distance, bool with_partials);
 
 // Adds force, reaction and partials to the balance of both bodies.
 void apply(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);

@@ -205,6 +205,7 @@ class Builder {
   // Second pass: arguments, with all references resolved.
   void read_statements() {
     auto read = read_once_ ? read_once_->statements.begin() : std::deque<Statement>::iterator{};
+    bool label_is_known = false;
     for (const Placement& p : placements_) {
       // SENVAL asks for arguments of others, by their names alone.
       for (; read_once_ && &*read != p.statement; ++read) {
@@ -213,8 +214,10 @@ class Builder {
       if (!p.set) continue;
       Diagnostics own;
       ModelReader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
+      reader.label_is_known = label_is_known;
       p.set->make(p.at());
       p.set->read(p.at(), reader);
+      label_is_known = reader.label_is_known;
       if (own.has_errors()) p.set->sound[p.at()] = false;
       diagnostics_.append(std::move(own));
     }

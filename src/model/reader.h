@@ -60,6 +60,7 @@ class ElementReader {
     Span at;
   };
   std::vector<Assignment> assignments;
+  bool label_is_known = false;  // the remark on LABEL has been made, of whichever statement
 
  private:
   std::optional<Span> at_argument(std::string_view argument) const;

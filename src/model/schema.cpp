@@ -222,6 +222,19 @@ const WrittenArgument* goes_on_from(const WrittenArgument& word, const ElementRe
   return between.find(',') == std::string_view::npos ? &before : nullptr;
 }
 
+// LABEL says something to people, in any statement; one remark stands for all.
+bool is_label(const WrittenArgument& written, std::span<const std::string_view> names, ElementReader& r) {
+  static constexpr std::array<std::string_view, 1> label = {"LABEL"};
+  const std::string_view name = written.name.text();
+  if (!written.has_value || name.size() != label[0].size() || !find_keyword(name, label)) return false;
+  if (std::ranges::find(names, label[0]) != names.end()) return false;
+  if (!r.label_is_known)
+    r.warning("obsolete-argument", written.name, "LABEL names nothing and is passed over, here and wherever it stands",
+              "the name of an element is in the comment before it: ! adams_view_name='…'");
+  r.label_is_known = true;
+  return true;
+}
+
 }  // namespace
 
 namespace detail {
@@ -232,6 +245,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
   for (const auto& a : r.assignments) {
     if (a.at.offset == written.name.offset && a.at.source == written.name.source) return infos.size();
   }
+  if (is_label(written, names, r)) return infos.size();
   std::vector<std::string_view> tied;
   const auto k = find_keyword(written.name.text(), names, &tied);
   const std::string_view owner = r.label().statement;

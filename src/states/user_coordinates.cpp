@@ -172,8 +172,8 @@ std::optional<Failure> add_user_candidates(const System& system, const Motion& m
     Candidate c;
     c.row = row++;
     StateLabel label{StateType::pstate, system.model().label(ref).id, 1, "", {}, false};
-    label.text =
-        fmt::format("PSTATE VARIABLE VAR/{} {}", label.element, variable_function(system.model(), ref).at().text());
+    label.text = fmt::format("PSTATE VARIABLE VAR/{} {}", label.element,
+                             on_one_line(variable_function(system.model(), ref).at()));
     c.state = state_coordinate(std::move(label), StateType::pstate_rate, 2, 0);
     set.own.push_back(std::move(c));
   }

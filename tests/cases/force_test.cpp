@@ -295,5 +295,28 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair("MATRIX/1, FULL=CORDER, ROWS=2, COLUMNS=1, VALUES=1,2\nNFORCE/1, IMARKERS=31,77, J=21, KMATRIX=1",
                   "unknown-marker")));
 
+// Free of force where its markers meet, a spring pulls back whichever way they part; others have no direction there.
+TEST_F(Forces, springs_without_length_hold_what_is_drawn_in_their_place) {
+  const auto spring = [&](const std::string& of) {
+    return run(
+        "Spring\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPOINT_MASS/2, MASS=4, CM=2\nMARKER/2\nSPRINGDAMPER/1, "
+        "TRANSLATIONAL, I=2, J=1, " +
+            of + "\nEND\n",
+        "SIMULATE/STATICS\nLINEAR/EIGENSOL, KINETIC=1, STRAIN=1\nSIMULATE/DYNAMICS, END=1, STEPS=1\n");
+  };
+  const double hz = std::sqrt(100.0 / 4) / (2 * std::numbers::pi);
+  for (const std::string of : {"K=100", "K=100, LENGTH=0.5, FORCE=-50"}) {
+    const RunResult r = spring(of);
+    ASSERT_EQ(r.status, 0) << r.err;
+    ASSERT_EQ(r.eigenvalues(1).size(), 6u);
+    for (const auto& value : r.eigenvalues(1)) EXPECT_NEAR(std::abs(value.imag()), hz, 1e-12) << of;
+  }
+  for (const std::string of : {"K=100, LENGTH=0.5", "K=100, C=1", "FORCE=2"}) {
+    const RunResult r = spring(of);
+    EXPECT_EQ(r.status, 2) << of;
+    EXPECT_THAT(r.err, ::testing::HasSubstr("the markers of SPRINGDAMPER/1 coincide")) << of;
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::force_test

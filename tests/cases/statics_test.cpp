@@ -215,5 +215,31 @@ TEST_F(Statics, inclined_surfaces_below_are_met) {
   EXPECT_THAT(loose.err, HasSubstr("no equilibrium was found"));
 }
 
+// Values begin at 0, where what reads them may have none: quotients, roots and logarithms of VARIABLEs, of entries of
+// an ARRAY, of one that is the root of another one, whatever the order of the statements.
+TEST_F(Statics, values_are_there_before_what_reads_them) {
+  const std::string block =
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\nARRAY/1, U, VARIABLES=1\n";
+  const auto force = [&](const std::string& factor) {
+    return "SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-100*DZ(20,1)*" + factor + "\n";
+  };
+  for (const auto& [values, factor] :
+       {std::pair<std::string, std::string>{"VARIABLE/1, FUNCTION=SQRT(4+DZ(20,1)**2)\n", "(2/VARVAL(1))"},
+        {"VARIABLE/1, FUNCTION=1000\n", "SQRT(VARVAL(1)-999)"},
+        {"VARIABLE/1, FUNCTION=EXP(1)\n", "LOG(VARVAL(1))"},
+        {"VARIABLE/1, FUNCTION=2\n", "(2/ARYVAL(1,1))"},
+        {"VARIABLE/2, FUNCTION=SQRT(VARVAL(1)-1)/VARVAL(1)\nVARIABLE/1, FUNCTION=2\n", "(0.5/VARVAL(2))"},
+        {"VARIABLE/1, FUNCTION=VARVAL(2)-2\nVARIABLE/2, FUNCTION=3+0*VARVAL(1)\n", "(1/VARVAL(1))"}}) {
+    const std::string variable = values.find("/1,") == std::string::npos ? "VARIABLE/1, FUNCTION=2\n" : "";
+    const RunResult r = rest(block + force(factor) + variable + values, "KGRAV=-10");
+    ASSERT_EQ(r.status, 0) << factor << r.err;
+    EXPECT_NEAR(std::abs(r.eigenvalues(1)[0].imag()), 10 / (2 * std::numbers::pi), 0.01) << factor;
+  }
+  // One that has none at any value still says so.
+  const RunResult r = rest(block + force("SQRT(-VARVAL(1))") + "VARIABLE/1, FUNCTION=2\n", "KGRAV=-10");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("SFORCE/1: SQRT of -2"));
+}
+
 }  // namespace
 }  // namespace dynalin::cases::statics_test

@@ -304,7 +304,12 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
       reader.error("missing-argument", whole, fmt::format("{} needs JOINT, or I and J", name));
     } else if (by_markers && !(reader.given("I") && reader.given("J"))) {
       reader.error("missing-argument", whole, fmt::format("{} needs both I and J", name));
-    } else if (by_markers && (chosen != 1 || m.rotation || m.translation)) {
+    } else if (by_markers && (m.rotation || m.translation)) {
+      const std::string_view word = m.rotation ? "ROTATIONAL" : "TRANSLATIONAL";
+      reader.error("excluded-arguments", reader.at(word),
+                   fmt::format("{} of {} goes with JOINT, not with I and J", word, name),
+                   chosen == 0 ? "I and J go with one of X, Y, Z, B1, B2 and B3" : "leave it out");
+    } else if (by_markers && chosen != 1) {
       reader.error("wrong-freedom", whole, fmt::format("{} must name the one displacement that it drives", name),
                    "X, Y, Z, B1, B2 or B3");
     } else if (by_joint && m.rotation && m.translation) {

@@ -46,7 +46,7 @@ class LineForceKernel final : public Kernel, public WrenchSource {
   void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
-      if (norm(line) != 0.0) continue;
+      if (norm(line) != 0.0 || is_smooth(law(forces_[k], 0.0, 0.0))) continue;
       const ElementLabel& label = (*labels_)[k];
       undefined_values.add(UndefinedValue{
           &label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
@@ -58,11 +58,21 @@ class LineForceKernel final : public Kernel, public WrenchSource {
     E element;
     MarkerPlace I, J;
   };
+  static LineMagnitude law(const Force& f, double distance, double rate) {
+    const Dual<2> F = f.element.along_line(
+        TimeTaylor<Dual<2>>{Dual<2>(distance, 0), Dual<2>(rate, 1), Dual<2>(detail::missing(0.0))});
+    return {F.value, F.partial[0], F.partial[1]};
+  }
+  // Where the markers meet: a force that vanishes there, and damps nothing, needs no direction.
+  static bool is_smooth(const LineMagnitude& where_they_meet) {
+    return where_they_meet.value == 0.0 && where_they_meet.on_rate == 0.0;
+  }
   static PairForce force_of(const Force& f, const PairMotion& pair, bool with_partials) {
     const Taylor d = norm(pair.delta);
-    const TimeTaylor<Dual<2>> seeded{Dual<2>(d.value, 0), Dual<2>(d.rate, 1), Dual<2>(detail::missing(0.0))};
-    const Dual<2> F = f.element.along_line(seeded);
-    return along_line(pair, {F.value, F.partial[0], F.partial[1]}, with_partials);
+    if (d.value == 0.0) {
+      if (const LineMagnitude F = law(f, 0.0, 0.0); is_smooth(F)) return around_origin(F.on_distance, with_partials);
+    }
+    return along_line(pair, law(f, d.value, d.rate), with_partials);
   }
   std::vector<Force> forces_;
   const std::vector<ElementLabel>* labels_;

@@ -5,7 +5,8 @@
 //     F = FORCE − K (d − LENGTH) − C d′          d = |p_JI|, the distance from J to I
 //
 // F > 0 pushes the markers apart. It acts on I along +p_JI and on J along −p_JI. At d = 0 the line has no
-// direction and the analysis says which markers met.
+// direction: a spring that is free of force there (LENGTH and FORCE 0) and has no damper is −K p_JI and needs none, of
+// any other the analysis says which markers met.
 #include "elements/families/line_force.h"
 
 namespace dynalin {

@@ -91,7 +91,7 @@ struct WrittenResults {
        .help = "digits of numbers, 17 unless stated",
        .maximum = 100},
       {.name = "NOLINEAR", .slot = &E::no_linear, .help = "no linear results in the file"},
-      {.name = "FORMATTED", .slot = &E::flag},
+      {.name = "FORMATTED", .slot = &E::flag, .help = "text, as the file always is"},
       {.name = "UNFORMATTED", .slot = &E::flag},
       {.name = "COMMENT", .slot = &E::comment, .help = "a line at the head of the file"},
       {.name = "NODISPLACEMENTS", .slot = &E::no_displacements},
@@ -106,7 +106,8 @@ struct WrittenResults {
       {.name = "NOREQUESTS", .slot = &E::no_requests, .help = "no requests in the file"},
   }};
   // Of floating markers, data structures and tires there is nothing in the file.
-  static constexpr std::array<std::string_view, 14> acting = {"XRF",
+  static constexpr std::array<std::string_view, 15> acting = {"XRF",
+                                                              "FORMATTED",
                                                               "DECIMALPLACES",
                                                               "NOLINEAR",
                                                               "COMMENT",
