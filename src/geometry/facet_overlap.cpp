@@ -1,10 +1,10 @@
 #include "geometry/facet_overlap.h"
 
 #include <algorithm>
-#include <optional>
 #include <type_traits>
 
 #include "geometry/facet_arrangement.h"
+#include "geometry/facet_integrals.h"
 #include "geometry/facet_pairs.h"
 #include "geometry/seen_back.h"
 
@@ -23,22 +23,6 @@ constexpr double roundings = 1e-9;  // of an area
 
 // --- integrals
 
-Matrix3 outer(const Vector& a, const Vector& b) { return {a * b.x, a * b.y, a * b.z}; }
-
-// Over a part of a plane.
-struct PlaneMoments {
-  double area = 0;
-  Vector first{};    // ∫ x dS
-  Matrix3 second{};  // ∫ x xᵀ dS
-  void add(const Vector& a, const Vector& b, const Vector& c, const Vector& normal) {
-    const double s = 0.5 * dot(normal, cross(b - a, c - a));
-    const Vector sum = a + b + c;
-    area += s;
-    first += sum * (s / 3);
-    second += (s / 12) * (outer(a, a) + outer(b, b) + outer(c, c) + outer(sum, sum));
-  }
-};
-
 // The part of one triangle, with the normal n out of what is full, that bounds a volume.
 void add_part(const PlaneMoments& m, const Vector& n, bool of_I, Overlap& o) {
   o.volume += dot(n, m.first) / 3;
@@ -52,35 +36,6 @@ void add_part(const PlaneMoments& m, const Vector& n, bool of_I, Overlap& o) {
   const Matrix3 rows = {crossed(m.second.x), crossed(m.second.y), crossed(m.second.z)};
   o.moment_by_turn += transpose(rows);
 }
-
-// How the part of a facet grows where a facet of the other body cuts it: the cut moves over it with the velocity, seen
-// from it, of the other body along the normal of that one's facet by the sine of the angle between both.
-struct Cut {
-  Vector middle, way;  // from the origin of the volume
-  Vector across;       // the normal by the sine
-  double length;
-
-  // Nothing of facets in one plane, of which either all or nothing is inside.
-  static std::optional<Cut> of(const SurfacePiece& p, const Vector& normal, const Vector& other_normal,
-                               const Vector& origin) {
-    constexpr double parallel = 1e-9;  // sine
-    const double sine = norm(cross(normal, other_normal));
-    if (sine <= parallel) return std::nullopt;
-    return Cut{0.5 * (p.from + p.to) - origin, p.to - p.from, other_normal * ((p.of_I ? -1 : 1) / sine),
-               norm(p.to - p.from)};
-  }
-  void add_to(Overlap::Part& part) const {
-    part.area_by_shift += across * length;
-    part.area_by_turn += cross(middle, across) * length;
-  }
-  void add_to(Overlap::FixedPart& part) const {
-    add_to(static_cast<Overlap::Part&>(part));
-    part.first_by_shift += outer(middle * length, across);
-    // Row k: ∫ x_k (x × n) dl.
-    const Matrix3 second = length * (outer(middle, middle) + (1.0 / 12) * outer(way, way));
-    part.first_by_turn += transpose(Matrix3{cross(second.x, across), cross(second.y, across), cross(second.z, across)});
-  }
-};
 
 // From `begin` on: the part of one triangle. Returns where the next one begins.
 template <class Part>
@@ -100,7 +55,8 @@ std::size_t add_triangle(const std::vector<SurfacePiece>& pieces, std::size_t be
     o.corners.push_back(p.from - o.origin);
     reach = std::max(reach, norm(p.to - first.from));
     if (p.other == SurfacePiece::none) continue;
-    if (const auto cut = Cut::of(p, n, B.normal(p.other), o.origin)) cut->add_to(part);
+    const auto cut = StraightCut::of(p.from - o.origin, p.to - o.origin, n, B.normal(p.other), p.of_I ? -1.0 : 1.0);
+    if (cut) cut->add_to(part);
   }
   // What bounds a hole in the part of another volume.
   if (m.area < -roundings * reach * (reach + 1e-3 * size)) o.whole = false;

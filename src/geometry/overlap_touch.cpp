@@ -1,220 +1,16 @@
 #include "geometry/overlap_touch.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 
-#include "base/smooth_step.h"
-#include "geometry/facet_overlap.h"
 #include "geometry/facet_pairs.h"
+#include "geometry/overlap_law.h"
 #include "geometry/prism.h"
 
 namespace dynalin {
 
 namespace {
 
-using Index = FacetBody::Index;
-
-// Of the area of both parts of a volume's surface: below it they are nearly closed, and no direction is left.
-constexpr double least_net_area = 0.1;
-constexpr double no_sides = 1e-6;                      // of the area of a surface
-constexpr double most_depth = 1.1;                     // of the extent of a volume along the normal
-constexpr double side_below = 0.05, face_above = 0.2;  // cosine between a facet and the net area: see NetArea
-constexpr double just_touching = 1e-12;                // of the size: a mean depth that is none
-constexpr double on_facet = 1e-9;                      // of its size: how far beside it a line still meets a facet
-
-template <class T>
-Vec3<T> turned(const RelativeFrame<T>& f, const Vector& v) {
-  return f.x * v.x + f.y * v.y + f.z * v.z;
-}
-
-// One of the bodies where it stands, in the axes of J.
-template <class T>
-struct PlacedFacets {
-  const FacetBody& body;
-  RelativeFrame<T> frame;
-  double sign;  // −1: what is around the facets
-
-  Vec3<T> normal(Index t) const { return turned(frame, body.triangles()[t].normal) * sign; }
-  Vec3<T> corner(Index t, std::size_t n) const {
-    return frame.p + turned(frame, body.vertices()[body.triangles()[t].corner[n % 3]]);
-  }
-  // How far along a line from a point the plane of a triangle is.
-  T length_to(Index t, const Vec3<T>& from, const Vec3<T>& way) const {
-    const Vec3<T> n = normal(t);
-    return dot(n, corner(t, 0) - from) / dot(n, way);
-  }
-};
-
-// Where a line through a volume leaves one of the bodies.
-struct Exit {
-  Index triangle = 0;
-  double length = 0;                                      // along the line
-  double seam = std::numeric_limits<double>::infinity();  // to the next edge between faces of two planes
-};
-
-// Of the facets that look along the line, the one that it meets nearest to where it starts.
-template <class Part>
-std::optional<Exit> exit_of(const PlacedFacets<double>& A, const std::vector<Part>& facets, const Vector& from,
-                            const Vector& way) {
-  std::optional<Exit> nearest;
-  for (const Part& facet : facets) {
-    const Index t = facet.triangle;
-    const Vector n = A.normal(t);
-    if (!(dot(n, way) > 0)) continue;
-    Exit e{t, A.length_to(t, from, way)};
-    if (nearest && std::abs(e.length) >= std::abs(nearest->length)) continue;
-    const Vector at = from + way * e.length;
-    bool within = true;
-    for (std::size_t side = 0; side < 3 && within; ++side) {
-      const Vector begin = A.corner(t, side), along = A.corner(t, side + 1) - begin;
-      const double length = norm(along), depth = A.sign * dot(cross(n, along), at - begin) / length;
-      within = depth >= -on_facet * length;
-      const Index beside = A.body.triangles()[t].across[side];
-      if (norm(A.body.triangles()[beside].normal - A.body.triangles()[t].normal) > on_facet)
-        e.seam = std::min(e.seam, std::abs(depth));
-    }
-    if (within) nearest = e;
-  }
-  return nearest;
-}
-
-template <class T>
-RelativeFrame<double> plain(const RelativeFrame<T>& f) {
-  return {value_of(f.p), value_of(f.x), value_of(f.y), value_of(f.z)};
-}
-
-// A motion of I as a shift of what of it is at a place and a turn, both 0 with the derivatives that the frame has.
-template <class T>
-struct Nudge {
-  Vec3<T> shift, turn;
-
-  Nudge(const RelativeFrame<T>& f, const Vector& place) {
-    const RelativeFrame<double> at = plain(f);
-    turn = (cross(at.x, f.x) + cross(at.y, f.y) + cross(at.z, f.z)) * 0.5;
-    shift = f.p - at.p + cross(turn, place - at.p);
-  }
-  T of(double value, const Vector& by_shift, const Vector& by_turn) const {
-    return dot(shift, by_shift) + dot(turn, by_turn) + value;
-  }
-  Vec3<T> of(const Vector& value, const Matrix3& by_shift, const Matrix3& by_turn) const {
-    return by_shift * shift + by_turn * turn + value;
-  }
-};
-
-// --- the normal
-
-// 0 below the first number, 1 above the second one.
-template <class T>
-T step(const T& x, double from, double to) {
-  if (value_of(x) <= from) return T(0.0);
-  if (value_of(x) >= to) return T(1.0);
-  return smooth_step(T((x - from) / (to - from)));
-}
-
-// The surface of one body that is in the other one, as seen from where that comes from.
-template <class T>
-struct NetArea {
-  Vec3<T> all{T(0.0), T(0.0), T(0.0)};   // ∫ n dS
-  Vec3<T> face{T(0.0), T(0.0), T(0.0)};  // without sides
-  T sides{0.0};                          // their area
-  std::optional<Vec3<T>> flat;           // the normal of all that is no side, where that is one plane
-};
-
-template <class Part>
-double surface_of(const std::vector<Part>& parts) {
-  double sum = 0;
-  for (const Part& p : parts) sum += p.area;
-  return sum;
-}
-
-template <class T, class Part>
-NetArea<T> net_area(const PlacedFacets<T>& A, const std::vector<Part>& parts, const Nudge<T>& nudge) {
-  NetArea<T> net;
-  std::vector<std::pair<T, Vec3<T>>> faces;  // of each part
-  for (const Part& p : parts) {
-    faces.emplace_back(nudge.of(p.area, p.area_by_shift, p.area_by_turn), A.normal(p.triangle));
-    net.all += faces.back().second * faces.back().first;
-  }
-  net.face = net.all;
-  const T size = norm(net.all);
-  if (value_of(size) <= no_sides * surface_of(parts)) return net;
-  const Vec3<T> towards = net.all / size;
-  Vec3<T> of_sides{T(0.0), T(0.0), T(0.0)};
-  T area(0.0);
-  const Vector* plane = nullptr;
-  bool is_flat = true;
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    const auto& [of_face, n] = faces[k];
-    const T cosine = dot(n, towards),
-            share = 1.0 - step(value_of(cosine) < 0 ? -cosine : cosine, side_below, face_above);
-    of_sides += n * (of_face * share), area += of_face * share;
-    if (value_of(share) == 1) continue;
-    // Facets of one plane have one normal.
-    const Vector& own = A.body.triangles()[parts[k].triangle].normal;
-    is_flat = is_flat && (!plane || (own.x == plane->x && own.y == plane->y && own.z == plane->z));
-    if (!plane) plane = &own, net.flat = n;
-  }
-  if (!is_flat) net.flat.reset();
-  if (!(value_of(area) > 0)) return net;
-  // The square: a norm has no derivative at 0.
-  const T sideways = dot(of_sides, of_sides) / (size * size);
-  const T left_out = 1.0 - step(sideways, 0.01, 0.09);
-  net.face = net.all - of_sides * left_out, net.sides = area * left_out;
-  return net;
-}
-
-// Both bodies' areas are opposite, as they bound one volume; without sides they incline to each other as faces do. That
-// of a body with fewer sides counts, as the face of a floor does for a block that stands on it.
-template <class T>
-std::optional<Vec3<T>> normal_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets<T>& J,
-                                 const Nudge<T>& nudge) {
-  const NetArea<T> of_I = net_area(I, o.of_I, nudge), of_J = net_area(J, o.of_J, nudge);
-  const double surface = std::min(surface_of(o.of_I), surface_of(o.of_J));
-  if (value_of(norm(of_J.all)) <= least_net_area * surface) return std::nullopt;
-  // What is flat says the normal without roundings, so that nothing pushes along it.
-  const T sides = of_I.sides + of_J.sides;
-  if (value_of(of_J.sides) <= no_sides * surface && of_J.flat) return of_J.flat;
-  if (value_of(of_I.sides) <= no_sides * surface && of_I.flat) return -*of_I.flat;
-  if (value_of(sides) <= no_sides * surface) return normalized(of_J.all);
-  return normalized(of_J.face * (of_I.sides / sides) - of_I.face * (of_J.sides / sides));
-}
-
-// --- the depth
-
-// How far the surfaces of J and of I are from a place along the normal.
-template <class T>
-struct Reach {
-  T above{0.0}, below{0.0};
-  T sum() const { return above + below; }
-};
-
-double extent(const Overlap& o, const Vector& along) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vector& v : o.corners) low = std::min(low, dot(v, along)), high = std::max(high, dot(v, along));
-  return high - low;
-}
-
-// From the centroid c, where one of the surfaces is flat and the other comes to a point, to an edge or a face there: by
-// their mean distances from it. With a cross-section that grows from the point on as the power p of the way, of the
-// depth d the mean is d/(p + 1) and c is d/(p + 2) below the flat surface, of which d is what both say together. Where
-// none is flat it is less than the depth.
-template <class T>
-Reach<T> mean_reach(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& nudge, const T& volume,
-                    const Vec3<T>& from_origin, const Vec3<T>& normal) {
-  T seen(0.0), flux(0.0);  // ∫ n · m dS, ∫ (x · m) (n · m) dS over J's part; both over I's are what is left to 0 and V
-  for (const Overlap::FixedPart& p : o.of_J) {
-    const T cosine = dot(J.normal(p.triangle), normal);
-    seen += cosine * nudge.of(p.area, p.area_by_shift, p.area_by_turn);
-    flux += cosine * dot(normal, nudge.of(p.first, p.first_by_shift, p.first_by_turn));
-  }
-  const T at = dot(normal, from_origin), up = flux / seen - at, down = at - (flux - volume) / seen;
-  if (!(value_of(up) > 0 && value_of(down) > 0)) return {};
-  const T mean = volume / seen;
-  if (value_of(up) > value_of(down)) return {up, mean * up / down - up};
-  return {mean * down / up - down, down};
-}
+using namespace overlap_law;  // NOLINT: what this file is about
 
 // From the centroid along the normal to where both surfaces are met.
 template <class T>
@@ -233,26 +29,12 @@ Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets
   // Of a touch alone roundings are left.
   if (o.whole && o.volume <= just_touching * (I.body.radius() + J.body.radius()) * surface_of(o.of_J)) return {};
   const Nudge<T> nudge(I.frame, o.origin);
-  const T volume = nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn);
-  const Vec3<T> centroid = nudge.of(o.moment, o.moment_by_shift, o.moment_by_turn) / volume + o.origin;
-  Touch<T> t;
-  t.gap = T(-std::cbrt(std::abs(o.volume)));
-  t.normal = {T(0.0), T(0.0), T(1.0)}, t.point = centroid;
-  t.defined = false;
-  const auto found = normal_of(o, I, J, nudge);
-  if (!o.whole || !found) return t;
-  const Vec3<T>& normal = *found;
-  Reach<T> reach = mean_reach(o, J, nudge, volume, centroid - o.origin, normal);
-  // Where a body comes out at the other side, surfaces look the other way in part, and the means say nothing.
-  if (value_of(reach.sum()) > most_depth * extent(o, value_of(normal))) reach = {};
-  double seam = t.seam;
-  const auto met = met_reach(o, I, J, centroid, normal, seam);
-  if (met && value_of(met->sum()) > value_of(reach.sum())) reach = *met, t.seam = seam;
-  if (!(value_of(reach.sum()) > 0)) return t;
-  t.gap = -reach.sum();
-  t.normal = normal, t.point = centroid + normal * ((reach.above - reach.below) * 0.5);
-  t.defined = true;
-  return t;
+  const auto normal = normal_of(net_area(I, o.of_I, nudge), net_area(J, o.of_J, nudge),
+                                std::min(surface_of(o.of_I), surface_of(o.of_J)));
+  return touch_in(
+      o, J, nudge, normal,
+      [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) { return met_reach(o, I, J, from, way, seam); },
+      [&](const Vector& along, double least) { return extent(o, along) >= least; });
 }
 
 }  // namespace
@@ -261,27 +43,14 @@ template <class T>
 void touch_overlaps(const FacetBody& I_body, const RelativeFrame<T>& I_from_J, const FacetBody& J_body, bool cavity,
                     std::span<Touch<T>> out) {
   const RelativeFrame<double> f = plain(I_from_J);
-  const double size = I_body.radius() + J_body.radius();
   const Overlaps found = find_overlaps(I_body, f, J_body, cavity);
-  Touch<T> far;
-  far.gap = T(size), far.normal = {T(0.0), T(0.0), T(1.0)};
-  std::ranges::fill(out, far);
-  if (found.engulfed || !found.definite) {
-    out[0].gap = T(-size), out[0].defined = false;
-    return;
-  }
-  const PlacedFacets<T> I{I_body, I_from_J, 1};
-  const Vec3<T> x{T(1.0), T(0.0), T(0.0)}, y{T(0.0), T(1.0), T(0.0)}, z{T(0.0), T(0.0), T(1.0)};
-  const PlacedFacets<T> J{J_body, {{T(0.0), T(0.0), T(0.0)}, x, y, z}, cavity ? -1.0 : 1.0};
-  std::size_t count = 0;
-  for (const Overlap& o : found.volumes) {
-    if (count == out.size()) {
-      out.back().defined = false;
-      return;
-    }
-    out[count++] = touch_of(o, I, J);
-  }
-  if (count == 0) out[0].gap = T(found.volumes.empty() ? least_distance(I_body, f, J_body) : 0.0);
+  const bool undefined = found.engulfed || !found.definite;
+  fill_apart(I_body.radius() + J_body.radius(), undefined, out);
+  if (undefined) return;
+  if (found.volumes.empty()) out[0].gap = T(least_distance(I_body, f, J_body));
+  const PlacedFacets<T> I{I_body, I_from_J, 1}, J = standing<T>(J_body, cavity);
+  touch_each(
+      found.volumes, [&](const Overlap& o) { return touch_of(o, I, J); }, out);
 }
 
 FacetBody facets_of_box(const Vector& low, const Vector& high) {

@@ -14,6 +14,7 @@
 #include "geometry/overlap_touch.h"
 #include "geometry/plane_touch.h"
 #include "geometry/seen_back.h"
+#include "geometry/solid_overlap_touch.h"
 
 namespace dynalin {
 
@@ -23,8 +24,11 @@ using namespace solid;  // NOLINT: the shapes of this file
 
 // --- which pairs there are: A with B, A not a cavity
 
-// Two of flat faces, which meet as convex bodies where both are.
-bool is_convex(const Box&) { return true; }
+// Solids and bodies of facets, which meet as convex bodies where both are.
+template <class A>
+bool is_convex(const A&) {
+  return true;
+}
 bool is_convex(const Polyhedron& p) { return p.body->convex() != nullptr; }
 template <class A>
 bool meets_by_volume(const A& a, const Polyhedron& b, bool B_reversed) {
@@ -53,6 +57,9 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
     if constexpr (std::is_same_v<A, Ball>) return facet_touches(a);
     const ConvexBody* body = b.body->convex();
     if constexpr (std::is_same_v<A, Box> || std::is_same_v<A, Polyhedron>) {
+      if (meets_by_volume(a, b, B_reversed)) return most_overlaps;
+    }
+    if constexpr (std::is_same_v<A, Frustum> || std::is_same_v<A, Ellipsoid>) {
       if (meets_by_volume(a, b, B_reversed)) return most_overlaps;
     }
     if (!body || B_reversed) return 0;
@@ -187,8 +194,14 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
         } else if constexpr (std::is_same_v<U, Polyhedron>) {
           if constexpr (std::is_same_v<S, Ball>) touch_facets(a, A_from_B.p, *b.body, B.reversed, out);
           if constexpr (std::is_same_v<S, Torus>) touch_torus(a, A_from_B, b, out);
-          if constexpr (std::is_same_v<S, Frustum>) touch_frustum(a, A_from_B, *b.body->convex(), out);
-          if constexpr (std::is_same_v<S, Ellipsoid>) out[0] = touch_ellipsoid(a, A_from_B, *b.body->convex());
+          if constexpr (std::is_same_v<S, Frustum> || std::is_same_v<S, Ellipsoid>) {
+            if (meets_by_volume(a, b, B.reversed))
+              touch_overlaps(QuadricSolid(a), A_from_B, *b.body, B.reversed, out);
+            else if constexpr (std::is_same_v<S, Frustum>)
+              touch_frustum(a, A_from_B, *b.body->convex(), out);
+            else
+              out[0] = touch_ellipsoid(a, A_from_B, *b.body->convex());
+          }
           if constexpr (std::is_same_v<S, Box>) {
             if (meets_by_volume(a, b, B.reversed))
               touch_overlaps(facets_of_box(a.low, a.high), A_from_B, *b.body, B.reversed, out);

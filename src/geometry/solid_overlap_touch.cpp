@@ -1,0 +1,130 @@
+#include "geometry/solid_overlap_touch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/overlap_law.h"
+#include "geometry/solid_overlap.h"
+
+namespace dynalin {
+
+namespace {
+
+using namespace overlap_law;  // NOLINT: what this file is about
+
+template <class T>
+struct PlacedSolid {
+  const QuadricSolid& solid;
+  RelativeFrame<T> at;
+
+  template <class S>
+  Vec3<S> in_its_axes(const Vec3<S>& v) const {
+    return {dot(at.x, v), dot(at.y, v), dot(at.z, v)};
+  }
+};
+
+// Of an ellipsoid, whose one face it is, nothing is a side; of others ends and the mantle may be.
+template <class T>
+NetArea<T> net_area(const PlacedSolid<T>& I, const SolidOverlap& o, const NetArea<T>& of_J, const Nudge<T>& nudge) {
+  NetArea<T> net;
+  net.all = net.face = -of_J.all;
+  if (!I.solid.has_ends()) return net;
+  std::vector<FaceInside<T>> faces;
+  Vec3<T> of_mantle = net.all;
+  for (const bool high : {false, true}) {
+    const Overlap::Part& part = high ? o.high : o.low;
+    if (!(part.area > 0)) continue;
+    const T area = nudge.of(part.area, part.area_by_shift, part.area_by_turn);
+    const Vec3<T> n = I.at.z * (high ? 1.0 : -1.0);
+    faces.push_back({area, n * area, n, {0, 0, high ? 1.0 : -1.0}});
+    of_mantle -= faces.back().net;
+  }
+  const bool is_alone = faces.empty();
+  faces.push_back(
+      {nudge.of(o.curved.area, o.curved.area_by_shift, o.curved.area_by_turn), of_mantle, std::nullopt, {}});
+  if (is_alone) return net;
+  return overlap_law::net_area(faces, o.curved.area + o.low.area + o.high.area);
+}
+
+// From a place in the solid along a direction to its surface.
+template <class T>
+T length_out_of(const PlacedSolid<T>& I, const Vec3<T>& from, const Vec3<T>& way, double& seam) {
+  const QuadricSolid& s = I.solid;
+  const Vec3<T> p = I.in_its_axes(from - I.at.p), w = I.in_its_axes(way);
+  const Vector p0 = value_of(p), w0 = value_of(w);
+  const LineInSolid line = line_in_solid(s, p0, p0 + w0 * (2 * s.size()));
+  seam = std::numeric_limits<double>::infinity();
+  if (s.has_ends()) {
+    const double r = std::hypot(line.to.x, line.to.y);
+    seam = line.to_at == SolidFace::curved ? std::min(line.to.z - s.height(false), s.height(true) - line.to.z)
+                                           : s.radius(line.to_at == SolidFace::high) - r;
+  }
+  if (line.to_at != SolidFace::curved) return (s.height(line.to_at == SolidFace::high) - p.z) / w.z;
+  // One step of Newton's method on duals from where it is.
+  const double length = dot(line.to - p0, w0);
+  return length - s.value(p + w * length) / dot(s.gradient(line.to), w0);
+}
+
+// From the centroid along the normal to where both surfaces are met.
+template <class T>
+std::optional<Reach<T>> met_reach(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J,
+                                  const Vec3<T>& centroid, const Vec3<T>& normal, double& seam) {
+  const PlacedFacets<double> plain_J{J.body, plain(J.frame), J.sign};
+  const auto up = exit_of(plain_J, o.of_J, value_of(centroid), value_of(normal));
+  const Vec3<T> back = I.in_its_axes(centroid - I.at.p);
+  if (!up || !I.solid.holds(value_of(back))) return std::nullopt;
+  const T down = length_out_of(I, centroid, -normal, seam);
+  seam = std::min(seam, up->seam);
+  return Reach<T>{J.length_to(up->triangle, centroid, normal), down};
+}
+
+// Whether a volume is as long in a direction: from its highest place on a facet to its deepest one on a facet or, where
+// that is in the body, of the solid.
+bool reaches_along(const SolidOverlap& o, const PlacedSolid<double>& I, const FacetBody& J, bool cavity,
+                   const Vector& along, double least) {
+  if (extent(o, along) >= least) return true;
+  const Vector local = I.solid.farthest(-I.in_its_axes(along)), deepest = turned(I.at, local);
+  double high = -std::numeric_limits<double>::infinity();
+  for (const Vector& v : o.corners) high = std::max(high, dot(v, along));
+  return high - dot(deepest, along) >= least && J.nearest(I.at.p + deepest).outside == cavity;
+}
+
+template <class T>
+Touch<T> touch_of(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J) {
+  const double surface = surface_of(o.of_J);
+  // Of a touch alone roundings are left.
+  if (o.volume <= just_touching * (I.solid.size() + J.body.radius()) * surface) return {};
+  const Nudge<T> nudge(I.at, o.origin);
+  const NetArea<T> of_J = overlap_law::net_area(J, o.of_J, nudge);
+  const auto normal =
+      normal_of(net_area(I, o, of_J, nudge), of_J, std::min(surface, o.curved.area + o.low.area + o.high.area));
+  const PlacedSolid<double> plain_I{I.solid, plain(I.at)};
+  return touch_in(
+      o, J, nudge, normal,
+      [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) { return met_reach(o, I, J, from, way, seam); },
+      [&](const Vector& along, double least) { return reaches_along(o, plain_I, J.body, J.sign < 0, along, least); });
+}
+
+}  // namespace
+
+template <class T>
+void touch_overlaps(const QuadricSolid& solid, const RelativeFrame<T>& I_from_J, const FacetBody& J_body, bool cavity,
+                    std::span<Touch<T>> out) {
+  const RelativeFrame<double> f = plain(I_from_J);
+  const SolidOverlaps found = find_overlaps(solid, f, J_body, cavity);
+  const bool undefined = found.engulfed || !found.definite;
+  fill_apart(solid.size() + J_body.radius(), undefined, out);
+  if (undefined) return;
+  if (found.volumes.empty()) out[0].gap = T(least_distance(solid, f, J_body));
+  const PlacedSolid<T> I{solid, I_from_J};
+  const PlacedFacets<T> J = standing<T>(J_body, cavity);
+  touch_each(
+      found.volumes, [&](const SolidOverlap& o) { return touch_of(o, I, J); }, out);
+}
+
+template void touch_overlaps(const QuadricSolid&, const RelativeFrame<double>&, const FacetBody&, bool,
+                             std::span<Touch<double>>);
+template void touch_overlaps(const QuadricSolid&, const RelativeFrame<Dual<12>>&, const FacetBody&, bool,
+                             std::span<Touch<Dual<12>>>);
+
+}  // namespace dynalin

@@ -1,0 +1,222 @@
+#include "geometry/solid_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dynalin {
+
+namespace {
+
+constexpr double whole_turn = 2 * std::numbers::pi;
+constexpr double near_whole = 1e-7;  // of a turn: there poles decide
+
+// What is known but for multiples of `whole`.
+double between_none_and(double whole, double value, bool holds_pole) {
+  const double rest = value - whole * std::floor(value / whole);
+  if (holds_pole && rest < near_whole * whole) return rest + whole;
+  if (!holds_pole && rest > (1 - near_whole) * whole) return rest - whole;
+  return rest;
+}
+
+// By which an angle about z grows from p to q.
+double angle_about_z(const Vector& p, const Vector& q) {
+  return std::atan2(p.x * q.y - p.y * q.x, p.x * q.x + p.y * q.y);
+}
+
+// Of a triangle on the unit sphere, with its sign (van Oosterom and Strackee 1983).
+double solid_angle(const Vector& a, const Vector& b, const Vector& c) {
+  return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+// Along a mantle from the narrower rim on, so that nothing is left where it comes to a point: ∫ r dz, ∫ r z dz and
+// ∫ r² dz.
+struct MantleIntegrals {
+  double area, height, radius;
+  MantleIntegrals(const QuadricSolid& s, double z) {
+    const bool high = s.radius(true) < s.radius(false);
+    const double base = s.height(high), r = s.radius(high), k = s.slope(), d = z - base;
+    area = d * (r + 0.5 * k * d);
+    height = d * (r * base + d * (0.5 * (r + k * base) + d * k / 3));
+    radius = d * (r * r + d * (r * k + d * k * k / 3));
+  }
+};
+
+}  // namespace
+
+void SolidSums::add(const FacetSection& section, const std::vector<ConicPiece>& arcs) {
+  const Vector& n = section.normal;
+  Overlap::FixedPart part;
+  part.triangle = section.triangle;
+  PlaneMoments m;
+  const Vector start = section.boundary.front().from;
+  for (const FacetSection::Piece& p : section.boundary) {
+    overlap.corners.push_back(p.from);
+    if (p.face == SolidFace::curved) continue;
+    m.add(start, p.from, p.to, n);
+    if (p.face != SolidFace::none) add_end(p.face == SolidFace::high, p, n, part);
+  }
+  for (const ConicPiece& p : arcs) {
+    overlap.corners.push_back(p.from), overlap.corners.push_back(p.place(0.5, 0).at);
+    m.add(start, p.from, p.to, n);
+    add_arc(p, n, m, part);
+  }
+  part.area = m.area, part.first = m.first;
+  overlap.of_J.push_back(part);
+
+  // The surface of the solid sweeps over what these do not bound: what moves in is what goes out through the facets.
+  const double h = dot(n, start);
+  net_ += n * m.area, height_ += h * m.area, height_moment_ += m.first * h;
+  overlap.volume_by_shift -= n * m.area;
+  overlap.volume_by_turn -= cross(m.first, n);
+  overlap.moment_by_shift -= outer(m.first, n);
+  const auto crossed = [&](const Vector& row) { return cross(row, n); };
+  overlap.moment_by_turn -= transpose(Matrix3{crossed(m.second.x), crossed(m.second.y), crossed(m.second.z)});
+}
+
+void SolidSums::add_arc(const ConicPiece& p, const Vector& normal, PlaneMoments& m, Overlap::FixedPart& part) {
+  const double length = norm(p.way);
+  p.for_each_place([&](const ConicPiece::Place& at) {
+    const double width = length * at.share;
+    m.add_strip(at.on_chord, p.across, at.height, width);
+    // The arc moves over the facet, and the facet over the curved surface.
+    const Vector slope = solid_.gradient(at.at), over = slope * (width / at.rise);
+    const Vector turned = cross(at.at, over);
+    part.area_by_shift += over, part.area_by_turn += turned;
+    part.first_by_shift += outer(at.at, over), part.first_by_turn += outer(at.at, turned);
+    const Vector back = normal * (norm(slope) * width / at.rise);
+    curved.area_by_shift -= back, curved.area_by_turn -= cross(at.at, back);
+  });
+  if (solid_.has_ends()) {
+    add_to_mantle(p);
+  } else {
+    keep_on_sphere(p, normal);
+  }
+}
+
+// ∫ Q dφ, ∫ Q cos φ dφ and ∫ Q sin φ dφ by parts: by how much the angle has grown, not how fast, so that ends of arcs
+// that are as far beside each other as roundings of grazing lines leave them do not count.
+void SolidSums::add_to_mantle(const ConicPiece& p) {
+  const auto cosine_and_sine = [](const Vector& x) {
+    const double r = std::hypot(x.x, x.y);
+    return Vector{x.x / r, x.y / r, 0};
+  };
+  const Vector begin = cosine_and_sine(p.from);
+  Vector last = p.from;
+  double turn = 0;
+  const auto add = [&](double s, double weight) {
+    const ConicPiece::Place at = p.place(s, weight);
+    const double dz = ConicPiece::tangent(solid_, p, at).z * weight, z = at.at.z, r = solid_.radius_at(z);
+    const Vector here = cosine_and_sine(at.at);
+    turn += angle_about_z(last, at.at), last = at.at;
+    area_ -= r * turn * dz;
+    first_ -= Vector{r * r * (here.y - begin.y), r * r * (begin.x - here.x), r * z * turn} * dz;
+  };
+  for (std::size_t k = 0; k < gauss_14.size(); ++k) add(gauss_14[k][0], gauss_14[k][1]);
+  for (std::size_t k = gauss_14.size(); k-- > 0;) add(1 - gauss_14[k][0], gauss_14[k][1]);
+  turn += angle_about_z(last, p.to);
+  const MantleIntegrals q(solid_, p.to.z);
+  const Vector end = cosine_and_sine(p.to);
+  turn_ += turn, area_ += q.area * turn;
+  first_ += Vector{q.radius * (end.y - begin.y), q.radius * (begin.x - end.x), q.height * turn};
+}
+
+// In axes by which the ellipsoid is the unit sphere, the arc is one of a circle.
+void SolidSums::keep_on_sphere(const ConicPiece& p, const Vector& normal) {
+  const Vector& a = solid_.semi_axes();
+  const auto scaled = [&](const Vector& v) { return normalized(Vector{v.x / a.x, v.y / a.y, v.z / a.z}); };
+  on_sphere_.push_back({scaled(p.from), scaled(p.to), Vector{normal.x * a.x, normal.y * a.y, normal.z * a.z}});
+}
+
+// Of the sphere to the left of arcs: triangles about an apex, and what is between the sides of these and the arcs.
+double SolidSums::angle_on_sphere(const Vector& apex) const {
+  double sum = 0;
+  for (const auto& [from, to, across] : on_sphere_) {
+    // The middle of the arc's circle on the sphere that is the nearer one.
+    const Vector n = across / (dot(across, from) < 0 ? -norm(across) : norm(across));
+    const double beside = 0.5 * dot(from - n, from - n);  // 1 − n · from
+    const Vector u = from - n * (1 - beside), v = to - n * dot(n, to);
+    const double turn = std::atan2(dot(n, cross(u, v)), dot(u, v));
+    sum += solid_angle(apex, from, to) + turn * beside - solid_angle(n, from, to);
+  }
+  return sum;
+}
+
+void SolidSums::add_end(bool upper, const FacetSection::Piece& p, const Vector& normal, Overlap::FixedPart& part) {
+  const Vector out{0, 0, upper ? 1.0 : -1.0};
+  if (const auto cut = StraightCut::of(p.from, p.to, normal, out, 1)) cut->add_to(part);
+  if (const auto cut = StraightCut::of(p.from, p.to, out, normal, -1)) cut->add_to(upper ? high : low);
+  End& end = ends_[upper];
+  // Seen from outside of either end a disc has its rim the other way round.
+  const double sign = upper ? 1 : -1, radius = solid_.radius(upper);
+  const Vector way = p.to - p.from, middle = 0.5 * (p.from + p.to);
+  end.turn += sign * angle_about_z(p.from, p.to);
+  end.area -= sign * 0.5 * (p.from.x * p.to.y - p.from.y * p.to.x);
+  end.way += sign * way;
+  // ∫ (r² − x² − y²) along it.
+  const double square = middle.x * middle.x + middle.y * middle.y + (way.x * way.x + way.y * way.y) / 12;
+  const double beside = sign * 0.5 * (radius * radius - square);
+  end.first += Vector{beside * way.y, -beside * way.x, 0};
+}
+
+bool SolidSums::finish(bool lower, bool upper) {
+  if (!(solid_.has_ends() ? finish_frustum(lower, upper) : finish_ellipsoid(upper))) return false;
+  // What the volume holds moves with it.
+  overlap.moment_by_shift += overlap.volume * Matrix3::identity();
+  overlap.moment_by_turn -= skew(overlap.moment);
+  return true;
+}
+
+bool SolidSums::finish_frustum(bool lower, bool upper) {
+  constexpr double one_turn = 1e-3;
+  const double steep = std::hypot(1, solid_.slope()), r0 = solid_.radius_at(0) / steep;
+  std::array<double, 2> turns;
+  std::array<Vector, 2> firsts;
+  for (const bool high_end : {false, true}) {
+    const End& end = ends_[high_end];
+    const double r = solid_.radius(high_end);
+    turns[high_end] = between_none_and(whole_turn, end.turn, high_end ? upper : lower);
+    Overlap::Part& part = high_end ? high : low;
+    part.area = 0.5 * r * r * turns[high_end] + end.area;
+    firsts[high_end] = end.first + Vector{0, 0, solid_.height(high_end) * part.area};
+  }
+  // A way around the mantle and back by another one.
+  if (std::abs(turns[0] - turns[1] - turn_) > one_turn) return false;
+  curved.area = area_;
+  Vector first = first_;
+  for (const bool high_end : {false, true}) {
+    const MantleIntegrals whole(solid_, solid_.height(high_end));
+    const double sign = high_end ? 1 : -1, r = solid_.radius(high_end);
+    curved.area += sign * whole.area * turns[high_end];
+    first.z += sign * whole.height * turns[high_end];
+    if (r > 0) first += Vector{ends_[high_end].way.y, -ends_[high_end].way.x, 0} * (sign * whole.radius / r);
+  }
+  curved.area *= steep, first = first * steep;
+
+  const double h0 = solid_.height(false), h1 = solid_.height(true);
+  overlap.volume = (height_ + r0 * curved.area + h1 * high.area - h0 * low.area) / 3;
+  overlap.moment = (height_moment_ + first * r0 + firsts[1] * h1 - firsts[0] * h0) * 0.25;
+  return true;
+}
+
+bool SolidSums::finish_ellipsoid(bool holds_pole) {
+  const Vector& a = solid_.semi_axes();
+  const double whole = a.x * a.y * a.z;
+  Vector on_sphere;  // ∫ n dS of the sphere that it is in other axes
+  for (std::size_t k = 0; k < 3; ++k) {
+    overlap.moment[k] = 0.25 * (height_moment_[k] - a[k] * a[k] * net_[k]);
+    on_sphere[k] = -net_[k] * a[k] / whole;
+  }
+  // About the middle of a small part of it, or of what is missing of it, nothing is large that cancels.
+  const double flat = norm(on_sphere);
+  Vector apex = flat > 0 ? on_sphere / flat : Vector{0, 0, 1}, around{};
+  for (const SphereArc& arc : on_sphere_) around += arc.from;
+  if (dot(apex, around) < 0) apex = -apex;
+  const double angle = between_none_and(2 * whole_turn, -angle_on_sphere(apex), holds_pole);
+  overlap.volume = (height_ + whole * angle) / 3;
+  // Where it is nearly flat it is as large as its net area; how much larger where it bends, as on that sphere.
+  curved.area = flat > 0 ? norm(net_) * std::max(angle, 0.0) / flat : 0;
+  return true;
+}
+
+}  // namespace dynalin
