@@ -232,14 +232,20 @@ Reach<T> mean_reach(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& 
   return {mean * down / up - down, down};
 }
 
+// A place in a volume, from its origin.
+template <class T>
+Vec3<T> centroid_of(const Overlap& o, const Nudge<T>& nudge) {
+  return nudge.of(o.moment, o.moment_by_shift, o.moment_by_turn) /
+         nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn);
+}
+
 // The force is half-way between both surfaces as seen from the centroid. `met`: how far both are from it along the
-// normal; `reaches`: how far the volume does.
+// normal; `reaches`: whether the volume does so far.
 template <class T, class Met, class Reaches>
-Touch<T> touch_in(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& nudge,
+Touch<T> touch_in(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& nudge, const Vec3<T>& from_origin,
                   const std::optional<Vec3<T>>& found, const Met& met, const Reaches& reaches) {
   const T volume = nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn);
-  const Vec3<T> from_origin = nudge.of(o.moment, o.moment_by_shift, o.moment_by_turn) / volume,
-                centroid = from_origin + o.origin;
+  const Vec3<T> centroid = from_origin + o.origin;
   Touch<T> t;
   t.gap = T(-std::cbrt(std::abs(o.volume)));
   t.normal = {T(0.0), T(0.0), T(1.0)}, t.point = centroid;

@@ -32,7 +32,7 @@ Touch<T> touch_of(const Overlap& o, const PlacedFacets<T>& I, const PlacedFacets
   const auto normal = normal_of(net_area(I, o.of_I, nudge), net_area(J, o.of_J, nudge),
                                 std::min(surface_of(o.of_I), surface_of(o.of_J)));
   return touch_in(
-      o, J, nudge, normal,
+      o, J, nudge, centroid_of(o, nudge), normal,
       [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) { return met_reach(o, I, J, from, way, seam); },
       [&](const Vector& along, double least) { return extent(o, along) >= least; });
 }

@@ -12,6 +12,8 @@ namespace {
 
 using namespace overlap_law;  // NOLINT: what this file is about
 
+constexpr double shallow = 1e-6;  // of the size: a mean depth below which roundings say what means are
+
 template <class T>
 struct PlacedSolid {
   const QuadricSolid& solid;
@@ -65,17 +67,26 @@ T length_out_of(const PlacedSolid<T>& I, const Vec3<T>& from, const Vec3<T>& way
   return length - s.value(p + w * length) / dot(s.gradient(line.to), w0);
 }
 
-// From the centroid along the normal to where both surfaces are met.
+// From the middle along the normal to where both surfaces are met. Of what is shallower than roundings of its centroid
+// that may be beside it, above or below the facets.
 template <class T>
 std::optional<Reach<T>> met_reach(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J,
-                                  const Vec3<T>& centroid, const Vec3<T>& normal, double& seam) {
+                                  const Vec3<T>& middle, const Vec3<T>& normal, double& seam) {
   const PlacedFacets<double> plain_J{J.body, plain(J.frame), J.sign};
-  const auto up = exit_of(plain_J, o.of_J, value_of(centroid), value_of(normal));
-  const Vec3<T> back = I.in_its_axes(centroid - I.at.p);
-  if (!up || !I.solid.holds(value_of(back))) return std::nullopt;
-  const T down = length_out_of(I, centroid, -normal, seam);
+  const Vector way = value_of(normal);
+  double seen = 0, height = 0;
+  for (const Overlap::FixedPart& p : o.of_J) {
+    const double cosine = dot(plain_J.normal(p.triangle), way);
+    seen += cosine * p.area, height += cosine * dot(way, p.first);
+  }
+  const auto is_inside = [&](const Vec3<T>& p) { return I.solid.holds(value_of(I.in_its_axes(p - I.at.p))); };
+  const T shift(is_inside(middle) ? 0.0 : height / seen - dot(way, value_of(middle) - o.origin));
+  const Vec3<T> from = middle + normal * shift;
+  const auto up = exit_of(plain_J, o.of_J, value_of(from), way);
+  if (!up || !is_inside(from)) return std::nullopt;
+  const T down = length_out_of(I, from, -normal, seam);
   seam = std::min(seam, up->seam);
-  return Reach<T>{J.length_to(up->triangle, centroid, normal), down};
+  return Reach<T>{J.length_to(up->triangle, from, normal) + shift, down - shift};
 }
 
 // Whether a volume is as long in a direction: from its highest place on a facet to its deepest one on a facet or, where
@@ -89,20 +100,45 @@ bool reaches_along(const SolidOverlap& o, const PlacedSolid<double>& I, const Fa
   return high - dot(deepest, along) >= least && J.nearest(I.at.p + deepest).outside == cavity;
 }
 
+// 0 where a volume is so small that roundings say where its centroid is, as the first touch of a corner is, to 1.
+template <class T>
+T share_of_centroid(const T& volume, const T& area, double size) {
+  constexpr double small = 1e-36, large = 1e-32;  // of the size to the eighth: area by volume squared
+  const T v = volume / (size * size * size);
+  return value_of(v) > 0 ? step(T(v * v * area / (size * size)), small, large) : T(0.0);
+}
+
 template <class T>
 Touch<T> touch_of(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J) {
-  const double surface = surface_of(o.of_J);
-  // Of a touch alone roundings are left.
-  if (o.volume <= just_touching * (I.solid.size() + J.body.radius()) * surface) return {};
+  const double surface = surface_of(o.of_J), size = I.solid.size(), none = just_touching * (size + J.body.radius());
   const Nudge<T> nudge(I.at, o.origin);
+  T area(0.0);
+  Vec3<T> first{T(0.0), T(0.0), T(0.0)};
+  for (const Overlap::FixedPart& p : o.of_J) {
+    area += nudge.of(p.area, p.area_by_shift, p.area_by_turn);
+    first += nudge.of(p.first, p.first_by_shift, p.first_by_turn);
+  }
+  const T share = share_of_centroid(nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn), area, size);
+  // Of a touch alone roundings are left.
+  const bool is_small = value_of(share) == 0;
+  if (!(surface > 0) || (!is_small && o.volume <= none * surface)) return {};
+  // From the middle of the facets in the solid to the centroid.
+  Vec3<T> middle = is_small ? first / area : centroid_of(o, nudge);
+  if (!is_small && value_of(share) < 1) middle = middle * share + first / area * (1.0 - share);
+
   const NetArea<T> of_J = overlap_law::net_area(J, o.of_J, nudge);
   const auto normal =
       normal_of(net_area(I, o, of_J, nudge), of_J, std::min(surface, o.curved.area + o.low.area + o.high.area));
   const PlacedSolid<double> plain_I{I.solid, plain(I.at)};
-  return touch_in(
-      o, J, nudge, normal,
+  const Touch<T> t = touch_in(
+      o, J, nudge, middle, normal,
       [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) { return met_reach(o, I, J, from, way, seam); },
-      [&](const Vector& along, double least) { return reaches_along(o, plain_I, J.body, J.sign < 0, along, least); });
+      [&](const Vector& along, double least) {
+        if (o.volume <= shallow * size * surface) return false;
+        return reaches_along(o, plain_I, J.body, J.sign < 0, along, least);
+      });
+  if (is_small && normal && !(t.defined && value_of(t.gap) < -none)) return {};
+  return t;
 }
 
 }  // namespace

@@ -245,6 +245,20 @@ TEST_F(solid_overlap_touch, of_an_ellipsoid_in_a_face_is_as_deep_as_it_is) {
   }
 }
 
+// From the first touch on it is as deep as it is, and nowhere in doubt.
+TEST_F(solid_overlap_touch, of_a_first_touch_is_as_deep_as_it_is) {
+  for (double depth = 1e-13; depth < 1e-3; depth *= 3) {
+    for (const auto& [solid, f] :
+         {std::pair(drum(), at({0.3, 0.25 - depth, 0.2}, lying)),
+          std::pair(drum(), at({0.3, 0.2 - depth, 0.2}, on_end)), std::pair(egg(), at({0.3, 0.2 - depth, 0.2}))}) {
+      std::vector<Touch<double>> list(most_overlaps);
+      touch_overlaps<double>(solid, f, floor_with_edge(), false, list);
+      EXPECT_TRUE(list.front().defined) << depth;
+      EXPECT_NEAR(-list.front().gap, depth, 5e-12 + 3e-4 * depth);
+    }
+  }
+}
+
 TEST_F(solid_overlap_touch, of_a_rod_across_ribs_has_one_place_on_each) {
   const QuadricSolid rod(solid::Frustum{-0.9, 0.1, 0.9, 0.1});
   const auto list = seeded_touches(rod, at({0, 0.09, 0.2}, lying), comb());

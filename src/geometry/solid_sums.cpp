@@ -19,10 +19,13 @@ double between_none_and(double whole, double value, bool holds_pole) {
   return rest;
 }
 
-// By which an angle about z grows from p to q.
-double angle_about_z(const Vector& p, const Vector& q) {
-  return std::atan2(p.x * q.y - p.y * q.x, p.x * q.x + p.y * q.y);
+// Twice the area of a triangle with the axis, without cancellation where its corners are next to each other.
+double area_about_z(const Vector& p, const Vector& q) {
+  const double x = q.x - p.x, y = q.y - p.y;
+  return x * x + y * y < 0.1 * (p.x * p.x + p.y * p.y) ? p.x * y - p.y * x : p.x * q.y - p.y * q.x;
 }
+// By which an angle about z grows.
+double angle_about_z(const Vector& p, const Vector& q) { return std::atan2(area_about_z(p, q), p.x * q.x + p.y * q.y); }
 
 // Of a triangle on the unit sphere, with its sign (van Oosterom and Strackee 1983).
 double solid_angle(const Vector& a, const Vector& b, const Vector& c) {
@@ -97,28 +100,27 @@ void SolidSums::add_arc(const ConicPiece& p, const Vector& normal, PlaneMoments&
 // ∫ Q dφ, ∫ Q cos φ dφ and ∫ Q sin φ dφ by parts: by how much the angle has grown, not how fast, so that ends of arcs
 // that are as far beside each other as roundings of grazing lines leave them do not count.
 void SolidSums::add_to_mantle(const ConicPiece& p) {
-  const auto cosine_and_sine = [](const Vector& x) {
-    const double r = std::hypot(x.x, x.y);
-    return Vector{x.x / r, x.y / r, 0};
+  const double radius = std::hypot(p.from.x, p.from.y), cosine = p.from.x / radius, sine = p.from.y / radius;
+  // By how much (sin φ, −cos φ) has grown since the beginning.
+  const auto grown = [&](double turn) {
+    const double s = std::sin(turn), half = std::sin(0.5 * turn), c = 2 * half * half;
+    return Vector{cosine * s - sine * c, sine * s + cosine * c, 0};
   };
-  const Vector begin = cosine_and_sine(p.from);
   Vector last = p.from;
   double turn = 0;
   const auto add = [&](double s, double weight) {
     const ConicPiece::Place at = p.place(s, weight);
     const double dz = ConicPiece::tangent(solid_, p, at).z * weight, z = at.at.z, r = solid_.radius_at(z);
-    const Vector here = cosine_and_sine(at.at);
     turn += angle_about_z(last, at.at), last = at.at;
     area_ -= r * turn * dz;
-    first_ -= Vector{r * r * (here.y - begin.y), r * r * (begin.x - here.x), r * z * turn} * dz;
+    first_ -= (grown(turn) * (r * r) + Vector{0, 0, r * z * turn}) * dz;
   };
   for (std::size_t k = 0; k < gauss_14.size(); ++k) add(gauss_14[k][0], gauss_14[k][1]);
   for (std::size_t k = gauss_14.size(); k-- > 0;) add(1 - gauss_14[k][0], gauss_14[k][1]);
   turn += angle_about_z(last, p.to);
   const MantleIntegrals q(solid_, p.to.z);
-  const Vector end = cosine_and_sine(p.to);
   turn_ += turn, area_ += q.area * turn;
-  first_ += Vector{q.radius * (end.y - begin.y), q.radius * (begin.x - end.x), q.height * turn};
+  first_ += grown(turn) * q.radius + Vector{0, 0, q.height * turn};
 }
 
 // In axes by which the ellipsoid is the unit sphere, the arc is one of a circle.
@@ -151,7 +153,7 @@ void SolidSums::add_end(bool upper, const FacetSection::Piece& p, const Vector& 
   const double sign = upper ? 1 : -1, radius = solid_.radius(upper);
   const Vector way = p.to - p.from, middle = 0.5 * (p.from + p.to);
   end.turn += sign * angle_about_z(p.from, p.to);
-  end.area -= sign * 0.5 * (p.from.x * p.to.y - p.from.y * p.to.x);
+  end.area -= sign * 0.5 * area_about_z(p.from, p.to);
   end.way += sign * way;
   // ∫ (r² − x² − y²) along it.
   const double square = middle.x * middle.x + middle.y * middle.y + (way.x * way.x + way.y * way.y) / 12;
