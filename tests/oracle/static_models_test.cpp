@@ -5,9 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iostream>
 
 #include "analysis/statics.h"
 #include "elements/catalogue.h"
@@ -142,11 +140,11 @@ TEST_P(StaticModels, come_to_rest_or_say_what_makes_rest_impossible) {
   ASSERT_TRUE(system);
   Findings findings;
   StaticsReport report;
-  const auto start = std::chrono::steady_clock::now();
   const auto op = find_equilibrium(*system, system->drawn(), {}, report, findings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::cout << described.name << ": " << report.iterations << " iterations, " << seconds << " s\n";
-  EXPECT_LT(seconds, 5);
+  // The longest way to a rest takes 232; where there is none the search goes on to its limits.
+  if (described.proof.empty()) {
+    EXPECT_LE(report.iterations, 300);
+  }
   if (!described.proof.empty()) {
     ASSERT_FALSE(op);
     for (const std::string& part : described.proof) EXPECT_THAT(op.error().message, HasSubstr(part));

@@ -79,7 +79,7 @@ TEST_P(Chain, low_modes_have_all_their_digits) {
   EXPECT_EQ(found, 5);
 }
 INSTANTIATE_TEST_SUITE_P(lengths, Chain, ::testing::Values(5, 100, 500));
-// Minutes, and all the memory of its dense matrices (docs/performance.md): on request only.
+// Minutes, and all the memory of its dense matrices (docs/performance.md): the test long_chain of ctest -C Long.
 INSTANTIATE_TEST_SUITE_P(DISABLED_long, Chain, ::testing::Values(2000));
 
 // Without the state matrix, and counted.
@@ -113,7 +113,7 @@ TEST_P(SelectedOfChain, modes_have_all_their_digits) {
               mode.error_bound_hz + 1e-12 * std::abs(start));
   }
 }
-INSTANTIATE_TEST_SUITE_P(lengths, SelectedOfChain, ::testing::Values(50, 500));
+INSTANTIATE_TEST_SUITE_P(lengths, SelectedOfChain, ::testing::Values(50, 500, 2000));
 
 }  // namespace
 }  // namespace dynalin::precision::chain_test
