@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/arbitrary_vector.h"
 #include "system/column_builder.h"
 
 namespace dynalin {
@@ -65,8 +66,7 @@ std::vector<std::string> undetermined(const System& system, const AugmentedSyste
   for (std::int32_t c = 0; c < m.columns; ++c) entries.push_back({c, c, 1e-10 * largest});
   SparseLu lu;
   if (!lu.factor(compressed(m.rows, m.columns, entries))) return {};
-  Eigen::MatrixXd x(augmented.size(), 1);
-  for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  Eigen::MatrixXd x = arbitrary_vector(augmented.size(), 1).real();
   for (int pass = 0; pass < 2; ++pass) {
     lu.solve(x);
     x /= x.cwiseAbs().maxCoeff();

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_solvers.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/arbitrary_vector.h"
 #include "perturbation/perturbation.h"
 
 namespace dynalin {
@@ -97,9 +98,7 @@ Eigen::VectorXd uneven_motion(const System& system, const LinearSystem& linear) 
     return linear.displacements(direction).col(0).real();
   }
   const Displacements T(system, linear);
-  Eigen::VectorXd shares(states);
-  for (Eigen::Index k = 0; k < states; ++k) shares(k) = std::sin(1.0 + 1.7 * static_cast<double>(k));
-  Eigen::VectorXd moved = T.of(shares);
+  Eigen::VectorXd moved = T.of(arbitrary_vector(states, 1).real());
   if (moved.size() == 0) return moved;
   if (const double most = moved.cwiseAbs().maxCoeff(); most > 0) moved /= most;
   for (std::int32_t c = 0; c < moved.size(); ++c) moved(c) *= system.coordinate_scale(c);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
-#include "eigenvalues/arbitrary_vector.h"
 
 namespace dynalin {
 

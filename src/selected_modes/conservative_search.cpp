@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
 #include "base/dense_solvers.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "eigenvalues/rounding.h"
 
 namespace dynalin {

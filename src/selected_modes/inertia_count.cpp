@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "eigenvalues/arbitrary_vector.h"
+#include "base/arbitrary_vector.h"
 #include "perturbation/perturbation.h"
 
 namespace dynalin {

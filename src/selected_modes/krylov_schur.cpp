@@ -8,8 +8,8 @@
 #include <new>
 #include <numeric>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "eigenvalues/rounding.h"
 
 namespace dynalin {

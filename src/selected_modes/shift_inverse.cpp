@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
-#include "eigenvalues/arbitrary_vector.h"
 
 namespace dynalin {
 

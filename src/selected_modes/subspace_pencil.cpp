@@ -7,9 +7,9 @@
 #include <mutex>
 #include <utility>
 
+#include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
 #include "base/parallel.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "eigenvalues/rounding.h"
 #include "eigenvalues/transposed.h"
 #include "selected_modes/phased_subspace.h"

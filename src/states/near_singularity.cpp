@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/arbitrary_vector.h"
 #include "states/state_choice.h"
 #include "system/sparse_lu.h"
 
@@ -26,8 +27,7 @@ NearSingularity near_singularity(const System& system, const ConstraintRows& row
   SparseLu lu;
   if (!lu.factor(m)) return near;
   // Inverse iteration for the least singular value.
-  Eigen::MatrixXd left(m.rows, 1);
-  for (Eigen::Index k = 0; k < left.rows(); ++k) left(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  Eigen::MatrixXd left = arbitrary_vector(m.rows, 1).real();
   for (int pass = 0; pass < 3; ++pass) {
     left /= left.norm();
     lu.solve(left, SparseLu::Refined::no);

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/arbitrary_vector.h"
 #include "distributed/krylov_run.h"
 #include "distributed/mumps_call.h"
 #include "distributed/team.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "selected_modes/krylov_schur.h"
 #include "system/shifted_lu.h"
 #include "system/sparse_lu.h"

@@ -1,4 +1,4 @@
-#include "eigenvalues/arbitrary_vector.h"
+#include "base/arbitrary_vector.h"
 
 #include <cmath>
 #include <complex>
