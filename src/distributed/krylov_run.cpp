@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <optional>
 
+#include "distributed/krylov_progress.h"
 #include "distributed/orders.h"
 
 namespace dynalin {
@@ -19,9 +19,6 @@ namespace {
 using Complex = std::complex<double>;
 using Operator = std::function<void(Eigen::VectorXcd&)>;
 static_assert(std::is_same_v<PetscScalar, Complex>, "PETSc for complex numbers");
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double converged = 1e-11;  // as in krylov_schur.cpp
 
 // Whether the others have failed as well is not known.
 void check(PetscErrorCode code) {
@@ -36,53 +33,44 @@ void start_library() {
   check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
 }
 
-// When the iteration ends, as in KrylovSchur::run.
-class Progress {
+// What SLEPc says of its values one by one, as KrylovProgress asks for it.
+class Watch {
  public:
-  Progress(const Order& task) : task_(task) {}
+  explicit Watch(const Order& task) : space_(task.space), progress_(task.wanted, task.least) {}
 
   double error_of(Complex value, double residual) {
     largest_ = std::max(largest_, std::abs(value));
     seen_.push_back({std::abs(value), residual});
-    return residual <= 4 * eps * largest_ ? 0 : residual / std::abs(value);
+    return KrylovProgress::is_found(seen_.back(), largest_) ? 0 : residual / std::abs(value);
   }
   // After a restart with so many leading values found; the one behind them was looked at last.
   bool ends(PetscInt found) {
-    const bool next_seen = !seen_.empty() && found < task_.space && found - before_ < count(seen_);
-    const Seen next = next_seen ? seen_.back() : Seen{};
+    const bool next_seen = !seen_.empty() && found < space_ && found - before_ < count(seen_);
     if (found > before_ && found - before_ <= count(seen_))
-      last_ = seen_[static_cast<std::size_t>(found - before_ - 1)].value;
+      last_ = seen_[static_cast<std::size_t>(found - before_ - 1)].size;
+    progress_.look(found, static_cast<Eigen::Index>(space_), last_,
+                   next_seen ? std::optional(seen_.back()) : std::nullopt);
     seen_.clear(), before_ = found;
-    const bool below = found > 0 && last_ < task_.least;
-    const bool ended = next_seen && next.residual < 0.1 * next.value && next.value + next.residual < 0.9 * task_.least;
-    const double now = next_seen ? next.residual / next.value : 0;
-    stagnant_ = now > 0.9 * rest_ && now < 1e-6 ? stagnant_ + 1 : 0;
-    rest_ = now;
-    reached_ = found >= task_.wanted || below || ended || found >= task_.space;
-    return reached_ || stagnant_ >= 12;
+    return reached() || progress_.stands_still();
   }
-  bool reached() const { return reached_; }
+  bool reached() const { return progress_.has_reached_its_end(); }
   std::vector<Complex> in_sight;
 
  private:
-  struct Seen {
-    double value = 0, residual = 0;
-  };
-  static PetscInt count(const std::vector<Seen>& s) { return static_cast<PetscInt>(s.size()); }
+  static PetscInt count(const std::vector<KrylovProgress::Value>& s) { return static_cast<PetscInt>(s.size()); }
 
-  const Order& task_;
-  std::vector<Seen> seen_;  // in this restart
-  double largest_ = 0, last_ = 0, rest_ = std::numeric_limits<double>::infinity();
+  const std::int64_t space_;
+  KrylovProgress progress_;
+  std::vector<KrylovProgress::Value> seen_;  // in this restart
+  double largest_ = 0, last_ = 0;
   PetscInt before_ = 0;
-  int stagnant_ = 0;
-  bool reached_ = false;
 };
 
 class Iteration {
  public:
   // `op` and `task` are the first process's alone.
   Iteration(const Order& order, const Operator* op, const KrylovTask* task)
-      : order_(order), op_(op), task_(task), progress_(order) {
+      : order_(order), op_(op), task_(task), watch_(order) {
     start_library();
     const auto n = static_cast<PetscInt>(order.size);
     check(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, n, &like_));
@@ -107,7 +95,7 @@ class Iteration {
     check(EPSSetWhichEigenpairs(solver_, EPS_LARGEST_MAGNITUDE));
     const auto space = static_cast<PetscInt>(order_.space);
     check(EPSSetDimensions(solver_, static_cast<PetscInt>(std::max<std::int64_t>(1, order_.wanted)), space, space));
-    check(EPSSetTolerances(solver_, converged, static_cast<PetscInt>(order_.restarts)));
+    check(EPSSetTolerances(solver_, KrylovProgress::tolerance, static_cast<PetscInt>(order_.restarts)));
     check(EPSSetConvergenceTestFunction(solver_, test_value, this, nullptr));
     check(EPSSetStoppingTestFunction(solver_, test_end, this, nullptr));
     check(EPSMonitorSet(solver_, watch, this, nullptr));
@@ -121,8 +109,8 @@ class Iteration {
     if (not_applied_) return found;
     check(solved);
     found.basis = vectors_found();
-    found.converged = progress_.reached();
-    found.in_sight = progress_.in_sight;
+    found.converged = watch_.reached();
+    found.in_sight = watch_.in_sight;
     return found;
   }
 
@@ -231,26 +219,26 @@ class Iteration {
   }
   static PetscErrorCode test_value(EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
                                    void* self) {
-    *error = static_cast<Iteration*>(self)->progress_.error_of(value, residual);
+    *error = static_cast<Iteration*>(self)->watch_.error_of(value, residual);
     return 0;
   }
   static PetscErrorCode test_end(EPS, PetscInt restarts, PetscInt most, PetscInt found, PetscInt,
                                  EPSConvergedReason* reason, void* self) {
-    *reason = static_cast<Iteration*>(self)->progress_.ends(found) ? EPS_CONVERGED_USER
-              : restarts >= most                                   ? EPS_DIVERGED_ITS
-                                                                   : EPS_CONVERGED_ITERATING;
+    *reason = static_cast<Iteration*>(self)->watch_.ends(found) ? EPS_CONVERGED_USER
+              : restarts >= most                                ? EPS_DIVERGED_ITS
+                                                                : EPS_CONVERGED_ITERATING;
     return 0;
   }
   static PetscErrorCode watch(EPS, PetscInt, PetscInt found, PetscScalar* values, PetscScalar*, PetscReal*,
                               PetscInt all, void* self) {
-    if (found < all) static_cast<Iteration*>(self)->progress_.in_sight.assign(values + found, values + all);
+    if (found < all) static_cast<Iteration*>(self)->watch_.in_sight.assign(values + found, values + all);
     return 0;
   }
 
   const Order& order_;
   const Operator* op_;
   const KrylovTask* task_;
-  Progress progress_;
+  Watch watch_;
   std::exception_ptr error_;
   bool not_applied_ = false;
   Vec like_ = nullptr, whole_ = nullptr;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
 #include "base/dense_solvers.h"
+#include "distributed/krylov_progress.h"
 #include "eigenvalues/rounding.h"
 
 namespace dynalin {
@@ -21,7 +23,6 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double converged = 1e-11;
 constexpr Index at_a_time = 4;  // columns of the block
 
 }  // namespace
@@ -135,8 +136,7 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
     if (!start_at(locked + size)) return false;
   }
   Matrix H = Matrix::Zero(most + at_a_time, most);
-  double last_share = std::numeric_limits<double>::infinity();
-  int stagnant = 0;
+  KrylovProgress progress(wanted, least);
   for (int restart = 0; restart < restarts; ++restart) {
     while (processed < most) {
       const Index block = std::min({at_a_time, most - processed, size - processed});
@@ -174,21 +174,15 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
     const Matrix U = solver.eigenvectors()(Eigen::all, order);
     const Eigen::VectorXd theta = solver.eigenvalues()(order);
     const Matrix coupling = H.block(m, 0, block, m) * U;
-    const auto residual = [&](Index k) { return block > 0 ? coupling.col(k).norm() : 0.0; };
+    const auto value = [&](Index k) {
+      return KrylovProgress::Value{std::abs(theta(k)), block > 0 ? coupling.col(k).norm() : 0.0};
+    };
     Index done = 0;
-    while (done < m && residual(done) <= std::max(converged * std::abs(theta(done)), 4 * eps * std::abs(theta(0))))
-      ++done;
-    const bool below = done > 0 && std::abs(theta(done - 1)) < least;
-    // The first that is to come is surely smaller.
-    const bool ended = done < m && residual(done) < 0.1 * std::abs(theta(done)) &&
-                       std::abs(theta(done)) + residual(done) < 0.9 * least;
-    // The first that is to come moves no longer: rounding has the last word.
-    const double now = done < m ? residual(done) / std::abs(theta(done)) : 0;
-    stagnant = now > 0.9 * last_share && now < 1e-6 ? stagnant + 1 : 0;
-    last_share = now;
-    const bool success = done >= wanted || below || ended || done == m;
+    while (done < m && KrylovProgress::is_found(value(done), std::abs(theta(0)))) ++done;
+    progress.look(done, m, done > 0 ? value(done - 1).size : 0, done < m ? std::optional(value(done)) : std::nullopt);
+    const bool success = progress.has_reached_its_end();
     const Index kept = success ? done : std::min(m - 1, done + std::max<Index>(1, (m - done) / 2));
-    if (success || restart + 1 == restarts || stagnant >= 12) {
+    if (success || restart + 1 == restarts || progress.stands_still()) {
       for (Index k = 0; k < m; ++k) {
         if (theta(k) != 0) (k < done ? squares_ : unsettled_).push_back(sigma + 1 / theta(k));
       }

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <new>
 #include <numeric>
+#include <optional>
 
 #include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
+#include "distributed/krylov_progress.h"
 #include "eigenvalues/rounding.h"
 
 namespace dynalin {
@@ -20,8 +21,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
-
-constexpr double ritz_tolerance = 1e-11;  // |b_k| against the value; what is left is measured in long double later
 
 lapack_complex_double* raw(ComplexMatrix& m) { return reinterpret_cast<lapack_complex_double*>(m.data()); }
 
@@ -91,8 +90,7 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
   start_at(locked);
   Index kept = 0;  // columns of the space that is gone on from
   Eigen::RowVectorXcd b;
-  double before = std::numeric_limits<double>::infinity();
-  int stagnant = 0;
+  KrylovProgress progress(wanted, least);
   for (int restart = 0; restart < restarts; ++restart) {
     b = Eigen::RowVectorXcd::Zero(most);
     for (Index j = kept; j < most; ++j) {
@@ -124,19 +122,12 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
     b = (b * U).eval();
     V.middleCols(locked, most) = product(V.middleCols(locked, most), U);
     if (locked > 0) C = (C * U).eval();
-    const double largest = std::abs(H(0, 0));
+    const auto value = [&](Index k) { return KrylovProgress::Value{std::abs(H(k, k)), std::abs(b(k))}; };
     Index done = 0;
-    while (done < most && std::abs(b(done)) <= std::max(ritz_tolerance * std::abs(H(done, done)), 4 * eps * largest))
-      ++done;
-    const bool below = done > 0 && std::abs(H(done - 1, done - 1)) < least;
-    // The first that is to come is surely smaller.
-    const bool ended = done < most && std::abs(b(done)) < 0.1 * std::abs(H(done, done)) &&
-                       std::abs(H(done, done)) + std::abs(b(done)) < 0.9 * least;
-    // The first that is to come moves no longer: rounding has the last word.
-    const double now = done < most ? std::abs(b(done)) / std::abs(H(done, done)) : 0;
-    stagnant = now > 0.9 * before && now < 1e-6 ? stagnant + 1 : 0;
-    before = now;
-    if (done >= wanted || below || ended || done == most || restart + 1 == restarts || stagnant >= 12) {
+    while (done < most && KrylovProgress::is_found(value(done), value(0).size)) ++done;
+    progress.look(done, most, done > 0 ? value(done - 1).size : 0,
+                  done < most ? std::optional(value(done)) : std::nullopt);
+    if (progress.has_reached_its_end() || restart + 1 == restarts || progress.stands_still()) {
       if (done < most && std::abs(b(done)) > 0) {
         for (Index k = done; k < most; ++k) in_sight_.push_back(H(k, k));
       }
@@ -146,7 +137,7 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
       T.bottomRightCorner(done, done) = H.topLeftCorner(done, done);
       T_ = std::move(T);
       Q_ = V.leftCols(locked + done);
-      return done >= wanted || below || ended || done == most;
+      return progress.has_reached_its_end();
     }
     // What has converged stays in the space that is gone on from, and half of the rest.
     kept = std::min(most - 1, done + std::max<Index>(1, (most - done) / 2));
