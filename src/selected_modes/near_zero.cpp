@@ -7,6 +7,7 @@
 #include "base/dense_solvers.h"
 #include "eigenvalues/zero_modes.h"
 #include "perturbation/perturbation.h"
+#include "structural_zeros/null_space.h"
 #include "structural_zeros/structural_zeros.h"
 
 namespace dynalin {
@@ -18,7 +19,6 @@ using RealVector = Eigen::VectorXd;
 using Index = Eigen::Index;
 
 constexpr double rounding_of_directions = 1e-11;  // in the changes of single elements, relative to their own size
-constexpr double in_subspace = 1e-7;              // what a direction may be outside of it
 constexpr double no_link = 1e-8;                  // of a chain, in units of the states
 
 class Search {
@@ -63,9 +63,7 @@ class Search {
   // An orthonormal basis of what columns of about unit length span.
   static Matrix range(const Matrix& columns) {
     const Eigen::ColPivHouseholderQR<Matrix> qr(columns);
-    Index rank = 0;
-    while (rank < std::min(columns.rows(), columns.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
-    return columns_of_q(qr, rank);
+    return columns_of_q(qr, independent_columns(qr));
   }
   Matrix image(const Matrix& x) const {  // A x
     const Matrix a = equations_.complete(x);
@@ -82,7 +80,7 @@ class Search {
   bool take_states() {
     std::vector<Index> candidates;
     for (Index k = 0; k < Q_.rows(); ++k) {
-      if (!is_taken(k) && std::abs(Q_.row(k).norm() - 1) < in_subspace) candidates.push_back(k);
+      if (!is_taken(k) && std::abs(Q_.row(k).norm() - 1) < beside_its_space) candidates.push_back(k);
     }
     if (candidates.empty()) return false;
     Matrix unit = Matrix::Zero(Q_.rows(), static_cast<Index>(candidates.size()));
@@ -129,11 +127,11 @@ class Search {
   bool take(const RealVector& direction) {
     RealVector v = direction.cwiseQuotient(units_);
     const double size = v.norm();
-    if (!(size > 0) || !((v - Q_ * (Q_.transpose() * v)).norm() <= in_subspace * size)) return false;
+    if (!(size > 0) || !((v - Q_ * (Q_.transpose() * v)).norm() <= beside_its_space * size)) return false;
     if (found_.count() > 0) {
       const Matrix before = units_.cwiseInverse().asDiagonal() * found_.directions;
       const RealVector rest = v - before * before.colPivHouseholderQr().solve(v);
-      if (!(rest.norm() > 1e-6 * size)) return false;
+      if (!(rest.norm() > another_direction * size)) return false;
     }
     Matrix more(direction.size(), found_.count() + 1);
     more << found_.directions, direction / size;

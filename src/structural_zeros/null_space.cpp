@@ -73,4 +73,11 @@ Matrix null_space(const std::vector<Eigen::RowVectorXd>& rows, Index columns, do
   return in_order;
 }
 
+Index independent_columns(const Eigen::ColPivHouseholderQR<Matrix>& qr) {
+  const Index most = std::min(qr.rows(), qr.cols());
+  Index rank = 0;
+  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > another_direction) ++rank;
+  return rank;
+}
+
 }  // namespace dynalin

@@ -41,5 +41,23 @@ TEST(NullSpace, looks_at_small_rows_where_the_large_ones_do_not_decide) {
   EXPECT_EQ(null_space(rows, 2, 1e-8).cols(), 0);
 }
 
+// Turned, so that no entry is zero.
+Eigen::Index independent(double apart) {
+  Eigen::MatrixXd columns(4, 3);
+  columns << 1, 0.6, 0.8, 0, 0.8, -0.6, 0, 0, apart, 0, 0, 0;
+  columns.col(2).normalize();
+  const Eigen::Vector4d normal = Eigen::Vector4d(1, 2, -3, 1).normalized();
+  columns -= 2 * normal * (normal.transpose() * columns).eval();
+  return independent_columns(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns));
+}
+
+TEST(IndependentColumns, tells_directions_apart_that_differ_by_more_than_they_are_known_to) {
+  EXPECT_EQ(independent(1), 3);
+  EXPECT_EQ(independent(1e-5), 3);
+  EXPECT_EQ(independent(1e-7), 2);
+  EXPECT_EQ(independent(0), 2);
+  EXPECT_EQ(independent_columns(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Zero(3, 0))), 0);
+}
+
 }  // namespace
 }  // namespace dynalin::null_space_test

@@ -157,8 +157,7 @@ class StructuralZeros::Contributions {
     }
     if (fresh.cols() == 0 || !fresh.allFinite()) return Matrix(found.rows(), 0);
     const Eigen::ColPivHouseholderQR<Matrix> qr(fresh);
-    Index rank = 0;
-    while (rank < std::min(fresh.rows(), fresh.cols()) && std::abs(qr.matrixR()(rank, rank)) > 1e-6) ++rank;
+    const Index rank = independent_columns(qr);
     if (rank == 0) return Matrix(found.rows(), 0);
     fresh = (fresh * qr.colsPermutation()).leftCols(rank).eval();
     for (Index k = 0; k < fresh.rows(); ++k) {
