@@ -10,6 +10,7 @@
 
 #include "analysis/row_sizes.h"
 #include "analysis/static_equations.h"
+#include "base/clearly_larger.h"
 #include "dataset/characters.h"
 #include "system/mass_centres.h"
 
@@ -176,7 +177,7 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
   std::size_t most = 0;
   for (std::size_t b = 1; b < movement.size(); ++b) {
     if (!counts[b] && !turns(movement[b])) continue;
-    if (most == 0 || movement[b].size(L) > movement[most].size(L) * (1 + 1e-9)) most = b;
+    if (most == 0 || is_clearly_larger(movement[b].size(L), movement[most].size(L), equal_solutions)) most = b;
   }
   if (most == 0) return;
   const Movement m = movement[most].seen(L);

@@ -8,6 +8,7 @@
 
 #include "analysis/displace.h"
 #include "analysis/rest_beside.h"
+#include "base/clearly_larger.h"
 #include "base/cycle.h"
 #include "base/dense_products.h"
 #include "eigenvalues/eigen.h"
@@ -170,7 +171,7 @@ std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
   double size = 0;
   for (std::int32_t c = 0; c < motion.size(); ++c) {
     const double moved = std::abs(motion(c)) / system.coordinate_scale(c);
-    if (moved > size * (1 + 1e-9)) size = moved, most = c;
+    if (is_clearly_larger(moved, size, equal_solutions)) size = moved, most = c;
   }
   return system.layout().coordinate_text(most);
 }

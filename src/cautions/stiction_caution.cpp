@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/clearly_larger.h"
 #include "mechanics/stiction_source.h"
 #include "modal/modal_distribution.h"
 #include "system/sources.h"
@@ -23,6 +24,7 @@ struct Held {
 std::optional<Held> most_held(const Stiction& s, const ElementLabel& friction, const LinearSystem& linear,
                               const EigenSolution& modes, const ModalDistribution& energies) {
   if (modes.vectors.cols() != static_cast<Eigen::Index>(modes.modes.size())) return std::nullopt;
+  constexpr double nothing = 1e-9;  // of the kinetic energy
   std::optional<Held> most;
   for (std::size_t mode = 0; mode < modes.modes.size(); ++mode) {
     if (modes.modes[mode].structural_zero) continue;
@@ -36,7 +38,8 @@ std::optional<Held> most_held(const Stiction& s, const ElementLabel& friction, c
       const auto direction = static_cast<std::size_t>(state.coordinate - 1);
       energy += 0.5 * s.stiffness.at(direction) * std::norm(v(static_cast<Eigen::Index>(k)) / largest);
     }
-    if (energy / kinetic > (most ? most->share * (1 + 1e-9) : 1e-9)) most = {mode, energy / kinetic};
+    const double share = energy / kinetic;
+    if (most ? is_clearly_larger(share, most->share, equal_solutions) : share > nothing) most = {mode, share};
   }
   return most;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/clearly_larger.h"
 #include "mechanics/pair_blocks.h"
 #include "modal/wrench_work.h"
 #include "perturbation/perturbed_point.h"
@@ -154,7 +155,7 @@ std::pair<std::vector<ModalRow<Complex>>, Complex> ModalDistribution::shape(std:
   Complex largest = 0;
   for (const auto& row : rows) {
     for (const Complex& v : row.values) {
-      if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
+      if (is_clearly_larger(std::abs(v), std::abs(largest))) largest = v;
     }
   }
   return {std::move(rows), largest};

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/clearly_larger.h"
 #include "linear/balanced.h"
 #include "linear/physical_matrices.h"
 #include "modal/mass_root.h"
@@ -71,7 +72,7 @@ ComplexMatrix entries_beside(const System& system, const ComplexMatrix& displace
 Complex largest_entry(const Eigen::VectorXcd& entries) {
   Complex largest = 0;
   for (const Complex& v : entries) {
-    if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
+    if (is_clearly_larger(std::abs(v), std::abs(largest))) largest = v;
   }
   return largest;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/clearly_larger.h"
 #include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
@@ -54,7 +55,7 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
     Complex largest = 0;
     for (const auto& u : shape) {
       for (const Complex& v : u) {
-        if (std::abs(v) > std::abs(largest) * (1 + 1e-12)) largest = v;
+        if (is_clearly_larger(std::abs(v), std::abs(largest))) largest = v;
       }
     }
     const Complex s = solution.modes[m].eigenvalue_hz * (2 * std::numbers::pi);
