@@ -7,6 +7,7 @@
 
 #include "base/dense_solvers.h"
 #include "eigenvalues/clustered_schur.h"
+#include "eigenvalues/rounding.h"
 
 namespace dynalin {
 
@@ -39,12 +40,14 @@ void add_vectors(const LongComplexMatrix& M, const Eigen::VectorXd& scale, bool 
     LongComplexMatrix D = times(Y.adjoint().cast<LongComplex>(), MX);
     D.diagonal().array() -= LongComplex(disc.centre);
     const Eigen::JacobiSVD<ComplexMatrix> svd(D.cast<Complex>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    v = svd.matrixV().rowwise().reverse(), u = svd.matrixU().rowwise().reverse();
     const Eigen::VectorXd s = svd.singularValues().reverse();
+    const bool all_equal = s(k - 1) <= std::max(equal_values * std::abs(disc.centre), disc.tau);
+    v = u = ComplexMatrix::Identity(k, k);
+    if (!all_equal) v = svd.matrixV().rowwise().reverse(), u = svd.matrixU().rowwise().reverse();
     // What the block is known to within has no directions: where all of it is rounding, one value may by chance be far
     // below the others.
     const double small = std::max(1e-10 * s(k - 1) + 10 * s(0), disc.tau);
-    for (Index a = 1; a < k; ++a) {
+    for (Index a = 1; a < k && !all_equal; ++a) {
       if (s(a) > small) v.col(a) = v.col(0), u.col(a) = u.col(0);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "base/arbitrary_vector.h"
 #include "base/dense_solvers.h"
+#include "eigenvalues/rounding.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {
@@ -19,7 +20,6 @@ using ComplexMatrix = Eigen::MatrixXcd;
 
 constexpr double least_rcond = 1e-6;  // of the products of both bases
 constexpr double mixed = 1e-3;        // |y_iᴴ x_j| against |y_iᴴ x_i|, where they should be dual
-constexpr double equal = 1e-9;        // differences of eigenvalues, relative
 constexpr double beside = 1e-5;       // of the shift from them, relative
 constexpr int steps = 4;              // of the iteration for the subspace
 // Of T − I/(λ − σ) along the subspace, against 1/|λ − σ|: what is more belongs to a chain.
@@ -49,7 +49,7 @@ std::vector<std::vector<Index>> groups_of(const EigenPairs& pairs) {
     std::vector<Index> group;
     for (Index j = i; j < count; ++j) {
       const bool same = pairs.real(i) == pairs.real(j) && !taken[static_cast<std::size_t>(j)];
-      if (same && std::abs(value(pairs, {j, false}) - v) <= equal * std::abs(v)) group.push_back(j);
+      if (same && std::abs(value(pairs, {j, false}) - v) <= equal_values * std::abs(v)) group.push_back(j);
     }
     for (const Index j : group) taken[static_cast<std::size_t>(j)] = true;
     if (group.size() > 1 && are_mixed(pairs, group)) groups.push_back(std::move(group));

@@ -174,5 +174,32 @@ TEST(Inclusion, values_that_are_equal_without_a_defect_have_vectors_of_their_own
   }
 }
 
+// Three that differ by little more than they are known to: what tells them apart says nothing of their vectors, and
+// each has its own, dual on both sides.
+TEST(Inclusion, values_that_are_equal_but_for_a_few_roundings_have_vectors_of_their_own) {
+  Random random(13);
+  int together = 0;
+  for (int draw = 0; draw < 100; ++draw) {
+    const Eigen::Index n = 6;
+    const double apart = 1e-14, unit = 1e-15 * (0.5 + 0.1 * (draw % 40));
+    const Eigen::MatrixXd P = normal_matrix(random, n);
+    Eigen::VectorXd values(n);
+    values << 1 - apart, 1, 1 + apart, 3, -2, 7;
+    const Eigen::MatrixXd Q = P.householderQr().householderQ();
+    const Eigen::MatrixXd A = Q * values.asDiagonal() * Q.transpose();
+    const auto discs = inclusion_discs(A.cast<std::complex<long double>>(), unit * Eigen::MatrixXd::Ones(n, n), true);
+    ASSERT_TRUE(discs);
+    for (const InclusionDisc& disc : *discs) {
+      together += disc.count == 3;
+      for (const Eigen::MatrixXcd& side : {disc.right, disc.left})
+        EXPECT_GT(side.jacobiSvd().singularValues().tail<1>()(0), 0.1) << draw;
+      const Eigen::MatrixXcd products = disc.left.adjoint() * disc.right;
+      EXPECT_LT((products - Eigen::MatrixXcd(products.diagonal().asDiagonal())).norm(), 1e-6) << draw;
+      EXPECT_LT((A * disc.right - disc.right * disc.centre).norm(), 1e-13 * A.norm());
+    }
+  }
+  EXPECT_GT(together, 30);
+}
+
 }  // namespace
 }  // namespace dynalin::inclusion_test

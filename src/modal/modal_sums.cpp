@@ -77,6 +77,13 @@ Complex largest_entry(const Eigen::VectorXcd& entries) {
   return largest;
 }
 
+// Equal eigenvalues, or what cannot be told from them, have vectors of any basis of their space.
+bool are_equal(const EigenMode& a, const EigenMode& b) {
+  constexpr double equal = 1e-9;  // to which eigensolutions take values for equal
+  return std::abs(a.eigenvalue_hz - b.eigenvalue_hz) <=
+         equal * std::abs(b.eigenvalue_hz) + a.error_bound_hz + b.error_bound_hz;
+}
+
 // Places of coordinates and of their rates among the states; empty where a coordinate has no rate.
 std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& linear) {
   std::vector<Index> position, rate;
@@ -302,10 +309,9 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
     const auto at = static_cast<Index>(k);
     const double before = shapes.col(at).norm();
-    const Complex hz = modes.modes[k].eigenvalue_hz;
     for (int twice = 0; twice < 2; ++twice) {
       for (std::size_t j = 0; j < k; ++j) {
-        if (std::abs(modes.modes[j].eigenvalue_hz - hz) > 1e-9 * std::abs(hz)) continue;
+        if (!are_equal(modes.modes[j], modes.modes[k])) continue;
         const auto other = shapes.col(static_cast<Index>(j));
         if (!(other.squaredNorm() > 0)) continue;
         const Complex part = other.dot(shapes.col(at)) / other.squaredNorm();

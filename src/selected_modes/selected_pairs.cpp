@@ -24,7 +24,6 @@ using ComplexVector = Eigen::VectorXcd;
 
 // How nearly parts of a basis may depend on each other before they become one.
 constexpr double most_oblique = 1e4;
-constexpr double equal_values = 1e-9;
 
 ComplexMatrix complement(const ComplexMatrix& columns) {
   const Eigen::HouseholderQR<ComplexMatrix> qr(columns);
@@ -170,14 +169,12 @@ class Mirror {
   }
   void add(std::size_t at, bool conjugate, Complex value, double radius, Index count, Index cluster = 0) {
     const InclusionDisc& d = discs_[at];
-    // Equal values of independent vectors: any basis of their space is one of eigenvectors.
-    const bool equal = count > 1 && d.powers[1] <= equal_values * std::abs(d.centre);
     const Index together = cluster > 0 ? cluster : count;
     for (Index k = 0; k < count; ++k) {
       out_.pairs.values.push_back(conjugate ? std::conj(value) : value);
       out_.trust.push_back({radius + 2 * eps * std::abs(value), 0, together == 1, together});
-      shares_.push_back({equal ? d.basis.col(k) : d.right.col(k), equal ? d.dual.col(k) : d.left.col(k), value,
-                         d.centre, conjugate, zero_.count() > 0 && std::abs(d.centre) <= d.radius});
+      shares_.push_back({d.right.col(k), d.left.col(k), value, d.centre, conjugate,
+                         zero_.count() > 0 && std::abs(d.centre) <= d.radius});
     }
   }
   // Vectors of all at once: each pass through the bases takes as long as reading them.
