@@ -6,6 +6,7 @@
 
 #include "base/dense_products.h"
 #include "elements/controls/variable_list.h"
+#include "perturbation/along_open_directions.h"
 #include "perturbation/perturbation.h"
 #include "perturbation/perturbed_point.h"
 #include "perturbation/undefined_partials.h"
@@ -181,7 +182,8 @@ class Perturber {
           if (r == row) size += std::abs(v);
         });
       }
-      if ((seen.row(static_cast<Eigen::Index>(k)).array().abs() > 1e-10 * size * moves.array()).any())
+      if ((seen.row(static_cast<Eigen::Index>(k)).array().abs() > rounding_along_open_directions * size * moves.array())
+              .any())
         return layout_.algebraic[static_cast<std::size_t>(at_->outputs[k])].owner->full_text();
     }
     return {};

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "perturbation/along_open_directions.h"
 #include "perturbation/massless_balances.h"
 #include "perturbation/perturbation.h"
 #include "perturbation/perturbed_point.h"
@@ -168,7 +169,7 @@ class PerturbationEquations::Assembly {
       seen.row(r) += v * p_.open_.row(c);
       size.row(r) += std::abs(v) * (c < 3 * n_ ? moves : (others + moves).eval());
     });
-    if ((seen.array().abs() > 1e-11 * size.array()).any()) {
+    if ((seen.array().abs() > rounding_along_open_directions * size.array()).any()) {
       return tl::unexpected(Failure{
           "limit of vanishing mass",
           fmt::format("rates of freedoms without mass ({}) act on the model, and they follow from the derivative of {}",

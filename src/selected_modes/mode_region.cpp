@@ -14,12 +14,16 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
-bool KnownModes::is_real(Complex v) { return std::abs(v.imag()) <= 1e-9 * std::abs(v); }
+// Values v of A are found as 1/(v − σ), which converges to a hundredth of that, and non-normal ones are less sure.
+bool KnownModes::is_real(Complex v, Complex shift) {
+  constexpr double found_to = 1e-9;
+  return std::abs(v.imag()) <= found_to * std::abs(v - shift);
+}
 
-KnownModes::KnownModes(const std::vector<Complex>& values) {
+KnownModes::KnownModes(const std::vector<Complex>& values, Complex shift) {
   std::vector<Complex> below;
   for (const Complex& v : values) {
-    if (is_real(v)) {
+    if (is_real(v, shift)) {
       upper_.emplace_back(v.real(), 0.0);
     } else {
       (v.imag() > 0 ? upper_ : below).push_back(v.imag() > 0 ? v : std::conj(v));

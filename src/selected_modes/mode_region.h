@@ -13,13 +13,13 @@ namespace dynalin {
 // Eigenvalues as far as they are known [rad/time]: of each mode the one with Im ≥ 0.
 class KnownModes {
  public:
-  // Members of pairs in any number and order, or only one of them.
-  explicit KnownModes(const std::vector<std::complex<double>>& values);
+  // Members of pairs in any number and order, or only one of them, as they were found from a shift.
+  KnownModes(const std::vector<std::complex<double>>& values, std::complex<double> shift);
 
   const std::vector<std::complex<double>>& upper() const { return upper_; }
   std::vector<std::complex<double>> all() const;  // with both members of pairs
-  // An eigenvalue is real, as far as can be told.
-  static bool is_real(std::complex<double> value);
+  // An eigenvalue found from this shift is real, as far as can be told.
+  static bool is_real(std::complex<double> value, std::complex<double> shift);
 
  private:
   std::vector<std::complex<double>> upper_;

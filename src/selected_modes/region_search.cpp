@@ -85,9 +85,8 @@ Complex RegionSearch::shift_at(double height) const {
 std::vector<Complex> RegionSearch::values() const {
   std::vector<Complex> all = right_->values();
   std::stable_sort(all.begin(), all.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
-  // What is not real by no more than values are computed to is.
   for (Complex& v : all) {
-    if (std::abs(v.imag()) <= 1e-10 * std::abs(v - op_.shift())) v.imag(0);
+    if (KnownModes::is_real(v, op_.shift())) v.imag(0);
   }
   // So small they are zeros of long chains, or next to it, scattered by rounding.
   const double near = std::max(near_, 1e-6 * std::abs(op_.shift())), scattered = 2e-3 * near;
@@ -111,11 +110,11 @@ Index RegionSearch::count_in(const ModeRegion& region) const {
 // Also what is in sight: no matter for the count, it only makes the determinant smoother.
 
 std::vector<Complex> RegionSearch::places() const {
-  return joined(known().all(), KnownModes(right_->in_sight()).all());
+  return joined(known().all(), KnownModes(right_->in_sight(), op_.shift()).all());
 }
 
 ModeRegion RegionSearch::countable_region(int attempt) const {
-  return countable(region_, KnownModes(joined(values(), right_->in_sight())), attempt);
+  return countable(region_, KnownModes(joined(values(), right_->in_sight()), op_.shift()), attempt);
 }
 
 std::optional<Index> RegionSearch::counted_by_inertia() {

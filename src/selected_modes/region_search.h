@@ -58,7 +58,7 @@ class RegionSearch {
   void start_anew();
   std::complex<double> shift_at(double height) const;
   std::vector<std::complex<double>> values() const;
-  KnownModes known() const { return KnownModes(values()); }
+  KnownModes known() const { return KnownModes(values(), op_.shift()); }
   bool both_members() const;
   std::vector<std::complex<double>> places() const;
   ModeRegion countable_region(int attempt) const;
