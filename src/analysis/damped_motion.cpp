@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/balance.h"
 #include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
 
@@ -10,7 +11,6 @@ namespace dynalin {
 
 namespace {
 
-constexpr double moving_near_balance = 1e-9;    // of the forces at play
 constexpr double first_way = 0.02;              // of the first step, in model lengths or radians
 constexpr StepLimits longest_step{0.3, 1e300};  // of a step; translations are limited by the length of the model
 constexpr double hold = 1e-12;                  // of a typical stiffness: what has neither mass nor stiffness
@@ -44,8 +44,8 @@ class Relaxation {
       if (level < 0.9 * lowest) lowest = level, improved = k;
       const bool slow =
           k > 0 && acceleration_ <= options_.acceleration_error && energy_ <= options_.kinetic_energy_error;
-      if ((level <= moving_near_balance || (slow && level <= 1e-3)) && k > asked) {
-        asked = k + (level <= moving_near_balance ? 0 : 4);
+      if ((level <= force_balance || (slow && level <= 1e-3)) && k > asked) {
+        asked = k + (level <= force_balance ? 0 : 4);
         OperatingPoint here = op;
         if (at_rest(here)) {
           op = std::move(here);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/balance.h"
 #include "analysis/static_step.h"
 
 namespace dynalin {
@@ -115,7 +116,7 @@ class Curve {
       step.col(0).head(n) = (1 - p.s) * load_ - equations_.residual();
       const double level = std::sqrt(equations_.merit(step.col(0).head(n), force_));
       if (!std::isfinite(level) || level > 10 * before) return std::nullopt;
-      if (level < 1e-9) return p;
+      if (level < force_balance) return p;
       before = level;
       if (!equations_.factor(lu_, matrix(border))) return std::nullopt;
       lu_.solve(step);

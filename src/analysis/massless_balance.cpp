@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/balance.h"
+
 namespace dynalin {
 
 namespace {
@@ -13,9 +15,8 @@ namespace {
 using Index = Eigen::Index;
 
 // A condensed freedom stands where its forces balance if it is no farther off than this part of the model's length (or
-// of a radian), or if they miss it by no more than this part of themselves.
+// of a radian), or if they miss it by no more than force_balance of themselves.
 constexpr double pose_tolerance = 1e-8;
-constexpr double force_tolerance = 1e-9;
 
 bool states_velocity(const Body& body) {
   const auto stated = [](const auto& values) {
@@ -119,7 +120,7 @@ Result<void> MasslessBalance::accept(const std::vector<double>& start, const Ope
       forces(augmented.equation(r)) = eq.magnitude()[static_cast<std::size_t>(r)];
     const Eigen::VectorXd size =
         limit_->damping.left_null.cwiseAbs().transpose() * (limit_->left.cwiseAbs().transpose() * forces);
-    if (farthest > pose_tolerance && (lacking_.array().abs() > force_tolerance * size.array()).any()) {
+    if (farthest > pose_tolerance && (lacking_.array().abs() > force_balance * size.array()).any()) {
       Index worst = 0;
       lacking_.cwiseAbs().maxCoeff(&worst);
       const Index column = limit_->damping.other_column[static_cast<std::size_t>(worst)];

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/balance.h"
 #include "analysis/comparable_scales.h"
 
 namespace dynalin {
 
 namespace {
 
-constexpr double balance = 1e-9;               // of the terms of an equation
 constexpr double roundings = 100;              // that residuals may be off: the estimate counts each number once
 constexpr double explained = 30;               // times the largest step that rounding was seen to make
 constexpr double softest = 1e13;               // answer of an unknown that more than rounding of the tangent holds
@@ -230,7 +230,7 @@ std::optional<RestJudgement> judge(StaticEquations& equations, const OperatingPo
   for (Eigen::Index k = 0; k < residual.size() && j.balanced; ++k) {
     if (!row_counts(equations, k)) continue;
     const double r = std::abs(residual(k));
-    j.balanced = r <= balance * equations.magnitude()(k) || r <= roundings * rounding(k);
+    j.balanced = r <= force_balance * equations.magnitude()(k) || r <= roundings * rounding(k);
   }
   const ColumnMatrix J = equations.tangent(0, 0);
   j.size = unknown_sizes(equations, op, J);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/balance.h"
 #include "analysis/settled_reactions.h"
 #include "analysis/static_step.h"
 
@@ -17,9 +18,16 @@ namespace {
 constexpr int descent_patience = 80;
 // Iterations near balance after which steps that do not become smaller never will: a force that fades or misses zero.
 constexpr int patience_with_steps = 40;
-constexpr double near_balance = 1e-9;   // of the forces at play: judged from here on
-constexpr double residual_noise = 100;  // residuals in units of rounding that say nothing
-constexpr double settled_move = 1e-6;   // of the size of an unknown
+// Residuals in units of rounding: those that say nothing, those that Newton's steps alone may settle, and those of a
+// force that certainly acted.
+constexpr double residual_noise = 100, little_excess = 1e4, certain_excess = 1e5;
+constexpr double settled_move = 1e-6;  // of the size of an unknown
+constexpr double nearer = 0.8;         // of the least merit or step so far: progress
+constexpr double stalled = 0.25;  // of the imbalance before: Newton's method, but for what it does not see, does better
+// Of the forces at play, from far to near: where Newton's steps are tried after others alone, what may be left to a
+// finer yardstick, and where slopes are rounding.
+constexpr double far_from_balance = 1e-3, left_to_parts = 1e-5, no_slope = 1e-6;
+constexpr double no_hold = 1e-7;  // of the stiffness: an implicit step that is Newton's
 // Of Newton's step where states are free, in comparable units: far above rounding, far below what determines a state.
 constexpr double newton_state_hold = 1e-8;
 
@@ -65,7 +73,7 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     note_arrivals();
     // Against the first yardstick: forces that grow without end do not make a point better.
     const double merit = equations_.merit(first_force_);
-    if (merit < 0.8 * lowest_merit_ || merit == 0) improved_ = iteration_;
+    if (merit < nearer * lowest_merit_ || merit == 0) improved_ = iteration_;
     // What falls freely comes no closer to rest until it lands.
     if (const double way = farthest(first_, op); way > 1.2 * way_) way_ = way, improved_ = iteration_;
     // Nor does what turns under a steady load, until it meets a stop.
@@ -79,10 +87,10 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     const int patience = inputs_lead_ ? descent_patience / 8 : spent ? descent_patience / 4 : descent_patience;
     if (iteration_ > improved_ + patience) return false;
     const double level = std::sqrt(merit_);
-    if (level <= near_balance || equations_.excess() <= 1e4) {
+    if (level <= force_balance || equations_.excess() <= little_excess) {
       if (finish(op)) return true;
       if (iteration_ > converging_ + patience_with_steps) return false;
-      stalled_ = level >= 0.25 * before_ || level == 0 ? stalled_ + 1 : 0;
+      stalled_ = level >= stalled * before_ || level == 0 ? stalled_ + 1 : 0;
       if (stalled_ == 3 && equations_.yardstick() == Yardstick::model) {
         change_yardstick();
         continue;
@@ -93,11 +101,11 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     before_ = level;
     if (newton(op, level)) continue;
     if (!implicit(op)) {
-      if (equations_.yardstick() == Yardstick::part || level > 1e-5) return false;
+      if (equations_.yardstick() == Yardstick::part || level > left_to_parts) return false;
       change_yardstick();
       continue;
     }
-    transient_ = hold_ > 1e-7;
+    transient_ = hold_ > no_hold;
   }
   return false;
 }
@@ -114,6 +122,7 @@ void Descent::change_yardstick() {
 // Newton's steps in the unknowns' own sizes until nothing but rounding is left.
 bool Descent::finish(OperatingPoint& op) {
   constexpr int steps = 60;
+  constexpr double no_last_step = 1e-2;  // of the size of an unknown
   OperatingPoint here = op;
   double smallest = infinite, least_excess = infinite;
   int stuck = 0, unbalanced = 0;  // steps since the one that was shorter, and the one that brought balance closer
@@ -124,7 +133,7 @@ bool Descent::finish(OperatingPoint& op) {
     const auto j = judge(equations_, here);
     if (!j) break;
     if (k == 0) {
-      if (j->largest < 0.8 * smallest_move_) smallest_move_ = j->largest, converging_ = iteration_;
+      if (j->largest < nearer * smallest_move_) smallest_move_ = j->largest, converging_ = iteration_;
     }
     const double excess = equations_.excess();
     unbalanced = excess < 0.5 * least_excess ? 0 : unbalanced + 1;
@@ -133,8 +142,8 @@ bool Descent::finish(OperatingPoint& op) {
     // What Newton's method cannot improve any more, neither step nor balance, is determined as well as it can be.
     // So is what it would not change but in the last digits, where nothing better was found: one more step may lead
     // where forces have no direction.
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const bool exact = (j->largest <= 1e-12 && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
+    constexpr double epsilon = std::numeric_limits<double>::epsilon(), last_digits = 1e-12;
+    const bool exact = (j->largest <= last_digits && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
                        (!rest && j->largest_of_all <= epsilon);
     const bool at_rest = (j->balanced || exact) && (j->determined || (j->excused && stuck >= 2));
     if (at_rest) (came_to_rest(*j) ? rest : freed) = here;
@@ -145,7 +154,7 @@ bool Descent::finish(OperatingPoint& op) {
                            equations_.equation_text(j->largest_at), j->step(j->largest_at),
                            equations_.imbalance_of_functions());
     }
-    if (j->largest > 1e-2 || stuck > 3) break;
+    if (j->largest > no_last_step || stuck > 3) break;
     smallest = std::min(smallest, j->largest);
     double taken = 0;
     here = moved(system_, here, equations_.augmented(), determined_step(*j), 1.0, options_.limits, &taken);
@@ -285,9 +294,9 @@ void Descent::note_arrivals() {
   for (Eigen::Index k = 0; k < n; ++k) {
     const double r = std::abs(equations_.residual()(k));
     const double now = r == 0 ? 0.0 : r / equations_.rounding()(k);
-    if (now <= residual_noise && std::max(excess_(k), excess_before_(k)) >= 1e5)
+    if (now <= residual_noise && std::max(excess_(k), excess_before_(k)) >= certain_excess)
       arrived_[static_cast<std::size_t>(k)] = true;
-    if (now > 1e4) arrived_[static_cast<std::size_t>(k)] = false;
+    if (now > little_excess) arrived_[static_cast<std::size_t>(k)] = false;
     excess_before_(k) = excess_(k);
     excess_(k) = now;
   }
@@ -340,9 +349,8 @@ std::optional<Eigen::VectorXd> Descent::solve(double hold) {
 // decides and the step is taken as it is. So it is where forces are balanced and integrators still have an input, and
 // from there on: no slope tells where that vanishes.
 bool Descent::newton(OperatingPoint& op, double level) {
-  constexpr double no_slope = 1e-6;
   inputs_lead_ = held_states_ && (equations_.imbalance() <= no_slope * force_ || (inputs_lead_ && !transient_));
-  if (transient_ && level >= 1e-3 && !inputs_lead_) return false;
+  if (transient_ && level >= far_from_balance && !inputs_lead_) return false;
   transient_ = true;
   const auto step = solve(0);
   if (!step || (level >= no_slope && !inputs_lead_ && equations_.slope(*step) >= 0)) return false;
@@ -351,10 +359,11 @@ bool Descent::newton(OperatingPoint& op, double level) {
     OperatingPoint next = moved(system_, op, equations_.augmented(), *step, fraction, options_.limits, &taken);
     // A matrix that is all but singular sends what nothing holds beyond everything.
     if (escaped(system_, first_, next)) break;
-    if (level > 1e-6) settle(equations_, next);
+    if (level > no_slope) settle(equations_, next);
     equations_.evaluate(next, false);
+    constexpr double rounding_of_merit = 1e-24;
     const double after = equations_.merit(force_);
-    if (after <= (level < 1e-9 ? 4 * merit_ + 1e-24 : merit_ * (1 - 0.5 * fraction))) {
+    if (after <= (level < force_balance ? 4 * merit_ + rounding_of_merit : merit_ * (1 - 0.5 * fraction))) {
       hold_ *= after <= merit_ ? std::clamp(0.5 * std::sqrt(after / std::max(merit_, 1e-300)), 0.05, 0.5) : 2.0;
       op = std::move(next);
       note_move(*step, taken);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "analysis/balance.h"
 #include "analysis/comparable_scales.h"
 #include "analysis/part_names.h"
 #include "base/joined_sets.h"
@@ -19,6 +20,14 @@ namespace {
 constexpr double opposed = 1e-9;     // of the terms of a column, above which a motion is opposed
 constexpr double negligible = 1e-7;  // of the largest, below which an equation takes no part
 constexpr double tiny = 1e-15;       // holds what no equation reads
+constexpr double balanced = 1e3;     // residuals in units of rounding
+constexpr double least_left = 1e-6;  // of the forces, that no motion opposes
+// Of a model's length by which a turn moves its points, against the way of the parts: what turns about an axis a
+// thousand lengths away goes straight.
+constexpr double least_turn = 1e-3;
+// Of what parts move one by one, that they move together: those that go against each other have no common force.
+constexpr double in_common = 1e-6;
+constexpr double no_component = 1e-6;  // of a load
 
 // z = ρ − A x with the least |z|, of A = R J C: what of ρ the columns of A cannot make.
 //
@@ -87,16 +96,17 @@ class Sets {
 // What moves along one set of rows, and the work that is done along it.
 struct Driven {
   double work = 0;
-  Eigen::Vector3d way = Eigen::Vector3d::Zero(), turn = way;
+  Eigen::Vector3d way = Eigen::Vector3d::Zero(), turn = way;  // sums over the parts,
+  double ways = 0, turns = 0;                                 // and over what each of their components is
   std::vector<std::size_t> bodies;
 
   std::optional<UnheldMotion> load(const StaticEquations& equations) const {
     const double length = equations.system().length(), count = static_cast<double>(bodies.size());
-    const bool turning = turn.norm() * length > 1e-6 * way.norm();
+    const bool turning = turns * length > least_turn * ways;
     const Eigen::Vector3d along = (turning ? turn : way) / count;
-    if (!(along.norm() > 0)) return std::nullopt;
+    if (!(along.norm() * count > in_common * (turning ? turns : ways))) return std::nullopt;
     const Eigen::Vector3d f = work / along.squaredNorm() * along;
-    if (!(f.norm() / (turning ? length : 1.0) > 1e-9 * equations.force_scale())) return std::nullopt;
+    if (!(f.norm() / (turning ? length : 1.0) > force_balance * equations.force_scale())) return std::nullopt;
     return UnheldMotion{bodies, turning, {f(0), f(1), f(2)}};
   }
 };
@@ -113,12 +123,12 @@ std::vector<UnheldMotion> unheld_motions(StaticEquations& equations, const Opera
   Eigen::VectorXd rho = scales.row.cwiseProduct(r);
   // What is balanced within its rounding is balanced, and values are those of their functions.
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
-    if (k >= equations.augmented().lambda(0) || std::abs(r(k)) <= 1e3 * equations.rounding()(k)) rho(k) = 0;
+    if (k >= equations.augmented().lambda(0) || std::abs(r(k)) <= balanced * equations.rounding()(k)) rho(k) = 0;
   }
   if (rho.isZero(0)) return {};
   Eigen::VectorXd z = beyond_columns(equations, A, rho);
   const double size = z.cwiseAbs().maxCoeff();
-  if (!z.allFinite() || !(size > 1e-6 * rho.cwiseAbs().maxCoeff())) return {};
+  if (!z.allFinite() || !(size > least_left * rho.cwiseAbs().maxCoeff())) return {};
   for (double& v : z) {
     if (std::abs(v) < negligible * size) v = 0;
   }
@@ -134,6 +144,7 @@ std::vector<UnheldMotion> unheld_motions(StaticEquations& equations, const Opera
       Driven& m = motions[*set];
       const double y = z(at) * scales.row(at);
       (k < 3 ? m.way(k) : m.turn(k - 3)) += y;
+      (k < 3 ? m.ways : m.turns) += std::abs(y);
       m.work -= y * r(at);
       if (m.bodies.empty() || m.bodies.back() != b) m.bodies.push_back(b);
     }
@@ -160,7 +171,7 @@ std::vector<std::string> unheld_everywhere(StaticEquations& equations, const std
   std::vector<std::string> sentences;
   for (UnheldMotion& m : first) {
     for (std::size_t c = 0; c < 3; ++c) {
-      if (std::abs(m.load[c]) < 1e-6 * norm(m.load)) m.load[c] = 0;
+      if (std::abs(m.load[c]) < no_component * norm(m.load)) m.load[c] = 0;
     }
     sentences.push_back(fmt::format("nothing holds {} against the {} ({:.5g}, {:.5g}, {:.5g})",
                                     part_names(equations.system().layout(), m.bodies), m.turning ? "moment" : "force",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "analysis/static_refusal.h"
 #include "analysis/statics_test_support.h"
 
@@ -56,6 +58,23 @@ TEST(UnheldMotion, a_torque_about_a_free_hinge_turns) {
   ASSERT_EQ(motions.size(), 1u);
   EXPECT_TRUE(motions[0].turning);
   EXPECT_NEAR(motions[0].load.z, 7, 1e-12);
+}
+
+// A thread by which one turn advances far beyond the model is a slide, and its weight is what pushes it; on a short one
+// the weight is a moment.
+TEST(UnheldMotion, a_thread_too_long_for_its_turns_to_show_falls) {
+  const auto load_of = [](const std::string& pitch) {
+    Search s(gravity + mass(2, "0,0,0") + "MARKER/21, PART=2, REU=0,90D,0\nMARKER/9, PART=1, REU=0,90D,0\n" +
+             "JOINT/1, CYLINDRICAL, I=21, J=9\nJOINT/2, SCREW, I=21, J=9, PITCH=" + pitch + "\n");
+    const auto motions = unheld_motions(s.equations, s.op);
+    EXPECT_EQ(motions.size(), 1u);
+    return motions.empty() ? UnheldMotion{} : motions[0];
+  };
+  const UnheldMotion slide = load_of("1E5"), screw = load_of("1");
+  EXPECT_FALSE(slide.turning);
+  EXPECT_NEAR(slide.load.y, -20, 1e-9);
+  EXPECT_TRUE(screw.turning);
+  EXPECT_NEAR(std::abs(screw.load.y), 20 / (2 * std::numbers::pi), 1e-9);
 }
 
 // A pendulum is held wherever it is not at rest, and what hangs on a spring is.
