@@ -11,6 +11,7 @@
 #include "analysis/displace.h"
 #include "analysis/initial.h"
 #include "analysis/row_sizes.h"
+#include "analysis/row_violations.h"
 #include "analysis/stated_shape.h"
 #include "expression/parametric_curve.h"
 #include "system/row_terms.h"
@@ -20,7 +21,6 @@ namespace dynalin {
 
 namespace {
 
-constexpr double position_tolerance = 1e-13;      // relative to the scale of the row
 constexpr std::int64_t position_iterations = 50;  // unless IC states MAXIT,
 constexpr std::int64_t longest_way = 20000;       // with those that go as far as they may
 constexpr double largest_turn = 0.5;              // of an iteration, unless IC states ALIMIT [rad]
@@ -236,7 +236,7 @@ Result<OperatingPoint> assemble(const System& system, OperatingPoint op, const H
       if (part.active[at]) {
         left = std::max(left, relative);
         above_rounding = std::max(above_rounding, relative - std::max(position_tolerance, rounding));
-      } else if (relative > std::max(op.redundancy_tolerance, position_tolerance) * (1 + 1e-6) + rounding) {
+      } else if (contradicts(relative, rounding, op.redundancy_tolerance)) {
         if (contradicted.empty()) stuck = stuck_axes(system, rows, k), first = k;
         contradicted.push_back(system.row_text(k));
       }

@@ -6,6 +6,8 @@
 
 #include "analysis/acceleration_rounding.h"
 #include "analysis/row_sizes.h"
+#include "analysis/row_violations.h"
+#include "base/arbitrary_vector.h"
 #include "system/row_terms.h"
 
 namespace dynalin {
@@ -13,9 +15,9 @@ namespace dynalin {
 namespace {
 
 constexpr double closure_rounding = std::numeric_limits<double>::epsilon();
-// Newton's method has found a position if its step is shorter than this, in lengths of the model and radians. Where
-// rounding keeps steps from shrinking they may be as long as the second.
-constexpr double found = 1e-13, longest_rounding = 1e-9;
+// Newton's method has found a position if its step is shorter than position_tolerance, in lengths of the model and
+// radians. Where rounding keeps steps from shrinking they may be as long as this.
+constexpr double longest_rounding = 1e-9;
 constexpr double least_contraction = 0.5;
 
 }  // namespace
@@ -66,9 +68,9 @@ bool KinematicEquations::contradicted(const OperatingPoint& op, double tolerance
   const std::vector<double> sizes = coordinate_sizes(system_.layout(), op);
   const std::vector<RowTerms> terms = row_terms(system_, system_.motion(op));
   return std::any_of(partition_.redundant.begin(), partition_.redundant.end(), [&](std::int32_t k) {
-    const double allowed = std::max(tolerance, 1e-13) * row_scale(system_, rows_.row(k)) +
-                           row_rounding(sizes, rows_.row(k), terms[static_cast<std::size_t>(k)]);
-    return !(std::abs(rows_.along_motion(k).value) <= (1 + 1e-6) * allowed);
+    const double scale = row_scale(system_, rows_.row(k)),
+                 rounding = row_rounding(sizes, rows_.row(k), terms[static_cast<std::size_t>(k)]);
+    return contradicts(std::abs(rows_.along_motion(k).value) / scale, rounding / scale, tolerance);
   });
 }
 
@@ -89,7 +91,7 @@ std::optional<KinematicEquations::Missed> KinematicEquations::solve_position(Ope
     const double length = length_of(step.col(0));
     if (!std::isfinite(length)) return Missed::not_converged;
     const bool rounded = length >= least_contraction * before;
-    if (length <= found || (rounded && length <= longest_rounding)) {
+    if (length <= position_tolerance || (rounded && length <= longest_rounding)) {
       if (contradicted(op, limits.redundancy_tolerance)) return Missed::contradicted;
       return std::nullopt;
     }
@@ -120,10 +122,7 @@ double KinematicEquations::hold() {
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (partition_.active[static_cast<std::size_t>(k)]) row_size(at++) = row_scale(system_, rows_.row(k));
   }
-  if (loose_.size() != n) {
-    loose_.resize(n);
-    for (Eigen::Index k = 0; k < n; ++k) loose_(k) = std::sin(1.0 + 1.7 * static_cast<double>(k));
-  }
+  if (loose_.size() != n) loose_ = arbitrary_vector(n, 1).real();
   x = row_size.cwiseProduct(loose_ / loose_.norm());
   lu_.solve(x);
   x = x.cwiseQuotient(scale).eval();

@@ -9,6 +9,7 @@
 #include "analysis/massless.h"
 #include "analysis/outside_weight.h"
 #include "analysis/row_sizes.h"
+#include "analysis/row_violations.h"
 #include "system/row_terms.h"
 
 namespace dynalin {
@@ -16,7 +17,7 @@ namespace dynalin {
 namespace {
 
 // Violations of rows by their scales, and residuals by their terms.
-constexpr double position_tolerance = 1e-13, left_out_tolerance = 1e-9, residual_tolerance = 1e-11;
+constexpr double left_out_tolerance = 1e-9, residual_tolerance = 1e-11;
 constexpr double rounding_units = 4 * std::numeric_limits<double>::epsilon();
 // Or by those that the integration leaves: what is zero but for rounding has no terms to be compared with.
 constexpr double first_residual_tolerance = 1e-4;
