@@ -86,6 +86,32 @@ TEST(OpenBoxCards, a_line_force_is_a_bush_along_its_line) {
   EXPECT_THAT(names_of(deck), ElementsAre("KSPRIN4"));
 }
 
+// A bushing that holds points alone has moments about mass centres, which cancel at the marker.
+TEST(OpenBoxCards, a_bush_has_what_is_soft_and_not_what_is_rounding) {
+  const Deck deck = box_of(linearization_of(
+      "PART/2, MASS=2, CM=20, IP=0.4,0.5,0.6, QG=0.1,0.2,0.3, REU=0.4,0.5,0.6\nMARKER/20, PART=2, QP=0.2,0.1,-0.1\n"
+      "MARKER/21, PART=2, QP=0.9,0.7,0.3, REU=0.3,0.7,0.2\nMARKER/22, PART=2\n"
+      "MARKER/12, PART=1, QP=1,2,3, REU=0.1,0.5,0.6\n"
+      "BUSHING/1, I=21, J=12, K=3E6,3E-6,3E6\nBUSHING/2, I=22, J=1, K=9,9,9, KT=5E-9,5E3,5E3\n"));
+  ASSERT_EQ(deck.bushes.size(), 2u);
+  EXPECT_NEAR(deck.bushes[0].stiffness[1], 3e-6, 1e-8);
+  EXPECT_NEAR(deck.bushes[1].stiffness[3], 5e-9, 1e-11);
+  for (std::size_t k = 3; k < 6; ++k) EXPECT_EQ(deck.bushes[0].stiffness[k], 0) << k;
+}
+
+TEST(OpenBoxCards, what_a_bush_cannot_have_is_not_left_out_in_silence) {
+  const Linearization of = linearization_of(
+      "PART/2, MASS=2, CM=20, IP=0.4,0.5,0.6\nMARKER/20, PART=2\nMARKER/21, PART=2, QP=1,0,0\n"
+      "BUSHING/1, I=20, J=1, K=9,9,9, KT=9,9,9\n"
+      "SFORCE/4, TRANSLATIONAL, I=21, J=1, FUNCTION=2*(DM(21,1)-1)\n");
+  ExportOptions options;
+  EXPECT_THAT(remarks_of(of, options), IsEmpty());
+  EXPECT_THAT(names_of(box_of(of, options)), ElementsAre("KSFORC4"));
+  options.export_residuals = false;
+  EXPECT_THAT(remarks_of(of, options), ElementsAre(HasSubstr("SFORCE/4 is negative along K1 of its CBUSH")));
+  EXPECT_THAT(box_of(of, options).matrices, IsEmpty());
+}
+
 TEST(OpenBoxCards, forces_that_are_singled_out_have_matrices_of_their_own) {
   const std::string further =
       "SFORCE/77, ROTATIONAL, ACTIONONLY, I=30, J=1, FUNCTION=-3*AX(30)\nVFORCE/123456, I=30, "

@@ -124,7 +124,6 @@ bool OpenForces::find_place(const ElementLabel& label, Place& place) {
   if (place.body_I == place.body_J) return false;
   place.I = motion_.point(system_.layout().marker(I));
   place.J = J_fixed ? motion_.point(system_.layout().marker(J)) : place.I;
-  place.axes_origin = place.J;
 
   const MarkerId of_axes = source.marker_of_axes(reported->which);
   const bool known_axes = of_axes.valid() && !system_.model().marker(of_axes).floating;
@@ -154,8 +153,8 @@ bool OpenForces::find_place(const ElementLabel& label, Place& place) {
   return true;
 }
 
-std::array<Matrix3, 2> OpenForces::at_point(const std::vector<MatrixEntry>& entries, MatrixKind kind, BodyId body,
-                                            const Vector& at, const Matrix3& axes) const {
+OpenForces::AtPoint OpenForces::at_point(const std::vector<MatrixEntry>& entries, MatrixKind kind, BodyId body,
+                                         const Vector& at, const Matrix3& axes) const {
   const BodyBlock& block = system_.layout().body(body);
   Matrix3 part[2][2];  // [force, moment] by [translation, rotation], at the mass centre
   for (const MatrixEntry& e : entries) {
@@ -167,7 +166,17 @@ std::array<Matrix3, 2> OpenForces::at_point(const std::vector<MatrixEntry>& entr
   const Matrix3 a = skew(at - points_.centre(body));
   const Matrix3 force_by_turn = part[0][0] * a + part[0][1];
   const Matrix3 moment_by_turn = part[1][0] * a + part[1][1] - a * force_by_turn;
-  return {transpose(axes) * part[0][0] * axes, transpose(axes) * moment_by_turn * axes};
+  const auto largest = [](const Matrix3& m) {
+    double size = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) size = std::max(size, std::abs(m(r, c)));
+    }
+    return size;
+  };
+  const double arm = norm(at - points_.centre(body)), force = largest(part[0][0]);
+  const double couplings = largest(part[0][1]) + largest(part[1][0]);
+  return {transpose(axes) * part[0][0] * axes, transpose(axes) * moment_by_turn * axes, force,
+          std::max({largest(part[1][1]), arm * couplings, arm * arm * force})};
 }
 
 void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<double, 6>& diagonal,
@@ -192,7 +201,8 @@ void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<
   }
 }
 
-void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& entries) {
+void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& entries, Diagnostics& remarks) {
+  constexpr double rounding = 1e-13;  // of sums over the terms of a force
   Place place;
   if (!find_place(label, place)) return;
   Bush bush;
@@ -203,25 +213,32 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
   bush.grid_A = place.grid_J, bush.grid_B = place.grid_I, bush.system = place.system;
   bush.location = 1;
   const bool of_I = place.body_I != ground_body;
+  std::string negative;  // fields of the property that would be
   for (const MatrixKind kind : {MatrixKind::K, MatrixKind::B}) {
-    const auto [translation, rotation] =
-        at_point(entries, kind, of_I ? place.body_I : place.body_J, place.I, place.axes);
+    const AtPoint at = at_point(entries, kind, of_I ? place.body_I : place.body_J, place.I, place.axes);
     std::array<double, 6>& diagonal = kind == MatrixKind::K ? bush.stiffness : bush.damping;
-    double largest[2] = {0, 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-      largest[0] = std::max(largest[0], std::abs(translation(k, k)));
-      largest[1] = std::max(largest[1], std::abs(rotation(k, k)));
-    }
     for (std::size_t k = 0; k < 6; ++k) {
       if (place.along_line && k != 0) continue;
-      const double v = k < 3 ? translation(k, k) : rotation(k - 3, k - 3);
-      diagonal[k] = v > 1e-12 * largest[k / 3] ? v : 0;
+      const double v = k < 3 ? at.translation(k, k) : at.rotation(k - 3, k - 3);
+      const double least = rounding * (k < 3 ? at.size_of_translation : at.size_of_rotation);
+      diagonal[k] = v > least ? v : 0;
+      if (v < -least)
+        negative += fmt::format("{}{}{}", negative.empty() ? "" : ", ", "KB"[kind == MatrixKind::B], k + 1);
     }
     subtract(place, kind, diagonal, entries);
   }
   deck_.bushes.push_back(std::move(bush));
-  if (!options_.export_residuals) entries.clear();
-  add_up(entries, 1e-13);
+  if (!options_.export_residuals) {
+    if (!negative.empty()) {
+      remarks.warning(
+          "export-left-out", label.at,
+          fmt::format("{} is negative along {} of its CBUSH, which has nothing there, and export_residuals = no "
+                      "leaves it out of the deck",
+                      name_of(label, options_), negative));
+    }
+    entries.clear();
+  }
+  add_up(entries, rounding);
 }
 
 // --- matrices --------------------------------------------------------------------------------------------------------
@@ -253,7 +270,7 @@ StudyResult<void> OpenForces::add(std::vector<Contribution> elements, std::vecto
       in_common.insert(in_common.end(), own.begin(), own.end());
       continue;
     }
-    if (options_.export_cbush && c.of == Contribution::Of::force) add_bush(*c.element, own);
+    if (options_.export_cbush && c.of == Contribution::Of::force) add_bush(*c.element, own, remarks);
     add_matrices(name_of(*c.element, options_), singled_out->second, std::move(own));
   }
   add_matrices("forces", options_.forces_dmig_name, std::move(in_common));

@@ -4,7 +4,8 @@
 //
 // A CBUSH stands between grids at the markers, along the axes that the force has its components in or, for a force
 // along the line between the markers, along that line alone. It has the diagonal of the stiffness and damping that the
-// exact matrices have for motions of I, where that is positive. As Nastran assembles it, with its spring at I,
+// exact matrices have for motions of I, where that is positive and more than rounding. As Nastran assembles it, with
+// its spring at I,
 //
 //     K = Dᵀ diag(k) D,    D u = Rᵀ (δp_I − δp_J − δθ_J × (I − J),  δθ_I − δθ_J),
 //
@@ -36,7 +37,7 @@ class OpenForces {
  private:
   struct Place {  // of a bush
     BodyId body_I, body_J;
-    Vector I, J, axes_origin;
+    Vector I, J;
     Matrix3 axes;
     bool along_line = false;
     std::int64_t grid_I = 0, grid_J = 0, system = 0;
@@ -48,11 +49,15 @@ class OpenForces {
   std::string automatic_suffix(const ElementLabel&);
   std::size_t longest_suffix() const;
 
-  void add_bush(const ElementLabel&, std::vector<MatrixEntry>&);
+  void add_bush(const ElementLabel&, std::vector<MatrixEntry>&, Diagnostics& remarks);
   bool find_place(const ElementLabel&, Place&);
-  // Stiffness or damping [6 × 6] for motions of a point on a body, in force and moment there, along axes.
-  std::array<Matrix3, 2> at_point(const std::vector<MatrixEntry>&, MatrixKind, BodyId, const Vector& at,
-                                  const Matrix3& axes) const;
+  // Stiffness or damping of displacements of a point on a body in the force there, and of turns in the moment, along
+  // axes; the largest of what each is a sum of.
+  struct AtPoint {
+    Matrix3 translation, rotation;
+    double size_of_translation = 0, size_of_rotation = 0;
+  };
+  AtPoint at_point(const std::vector<MatrixEntry>&, MatrixKind, BodyId, const Vector& at, const Matrix3& axes) const;
   void subtract(const Place&, MatrixKind, const std::array<double, 6>&, std::vector<MatrixEntry>&) const;
   void add_matrices(const std::string& name, const std::string& suffix, std::vector<MatrixEntry>);
 
