@@ -14,10 +14,10 @@
 
 #include "base/cycle.h"
 #include "base/dense_solvers.h"
+#include "reduction/inertia_factors.h"
 #include "reduction/interface_rows.h"
 #include "reduction/loose_parts.h"
 #include "reduction/lowest_modes.h"
-#include "reduction/symmetric_factors.h"
 
 namespace dynalin::reduction {
 
@@ -329,7 +329,7 @@ class Reducer {
   tl::expected<void, std::string> add_interior(const std::vector<Index>& b, const std::vector<Index>& i,
                                                MatrixXd& shapes) {
     const SparseMatrix k_ii = part(model_.stiffness, i, i), m_ii = part(model_.mass, i, i);
-    const SymmetricFactors factors(k_ii);
+    const InertiaFactors factors(k_ii);
     if (factors.null_pivots() > 0 || factors.negative() > 0) {
       const Index count = factors.negative() > 0 ? factors.negative() : factors.null_pivots();
       refuse_motion(

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/joined_sets.h"
-#include "reduction/symmetric_factors.h"
+#include "reduction/inertia_factors.h"
 
 namespace dynalin::reduction {
 
@@ -72,8 +72,8 @@ VectorXd weakest_motion(const SparseMatrix& matrix) {
   const SparseMatrix scaled = SparseMatrix(unit.asDiagonal() * matrix) * unit.asDiagonal();
   SparseMatrix one(n, n);
   one.setIdentity();
-  const auto moved_up = [&](double by) { return SymmetricFactors(SparseMatrix(scaled + by * one)); };
-  const auto is_positive = [](const SymmetricFactors& f) { return f.negative() == 0 && f.null_pivots() == 0; };
+  const auto moved_up = [&](double by) { return InertiaFactors(SparseMatrix(scaled + by * one)); };
+  const auto is_positive = [](const InertiaFactors& f) { return f.negative() == 0 && f.null_pivots() == 0; };
   // The least shift above which no eigenvalue is negative: beyond it the lowest is the one nearest to zero.
   double above = 1e-10, below = 0;
   const double most = (scaled.cwiseAbs() * VectorXd::Ones(n)).maxCoeff();  // Gershgorin: none is below its negative
@@ -82,7 +82,7 @@ VectorXd weakest_motion(const SparseMatrix& matrix) {
     const double middle = std::sqrt(below * above);
     (is_positive(moved_up(middle)) ? above : below) = middle;
   }
-  const SymmetricFactors factors = moved_up(above);
+  const InertiaFactors factors = moved_up(above);
   // Of no symmetry that the motion might lack.
   Eigen::MatrixXd x(n, 1);
   for (Index k = 0; k < n; ++k) x(k, 0) = 1 + 0.5 * std::sin(static_cast<double>(k + 1));

@@ -29,7 +29,7 @@ constexpr double same_square = 1e-6;
 // K⁻¹ on vectors that are orthogonal in M to modes found before; units of 1/ω² are such that the largest is near 1.
 struct Inverse {
   using Scalar = double;
-  const SymmetricFactors& factors;
+  const InertiaFactors& factors;
   const SparseMatrix& mass;
   const MatrixXd& found;
   MatrixXd mass_found;
@@ -58,7 +58,7 @@ struct Mass {
 
 class Search {
  public:
-  Search(const SparseMatrix& stiffness, const SparseMatrix& mass, const SymmetricFactors& factors)
+  Search(const SparseMatrix& stiffness, const SparseMatrix& mass, const InertiaFactors& factors)
       : stiffness_(stiffness), mass_(mass), factors_(factors) {}
 
   // All modes. With M = B Bᵀ, of as many columns as M has rank, 1/ω² are the eigenvalues of Bᵀ K⁻¹ B: shapes without
@@ -122,7 +122,7 @@ class Search {
   Index below(double square) const {
     return std::count_if(modes_.squares.begin(), modes_.squares.end(), [&](double s) { return s < square; });
   }
-  Index counted_below(double square) const { return SymmetricFactors(stiffness_ - square * mass_).negative(); }
+  Index counted_below(double square) const { return InertiaFactors(stiffness_ - square * mass_).negative(); }
   const VectorXd& squares() const { return modes_.squares; }
   LowestModes lowest(Index count) const { return {modes_.squares.head(count), modes_.shapes.leftCols(count)}; }
 
@@ -169,7 +169,7 @@ class Search {
 
   const SparseMatrix& stiffness_;
   const SparseMatrix& mass_;
-  const SymmetricFactors& factors_;
+  const InertiaFactors& factors_;
   LowestModes modes_{VectorXd(0), MatrixXd(mass_.rows(), 0)};
   std::mt19937 random_{1};
 };
@@ -190,7 +190,7 @@ tl::unexpected<std::string> missed(Index found, Index counted) {
 }  // namespace
 
 tl::expected<LowestModes, std::string> lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
-                                                    const SymmetricFactors& of_stiffness, const ModeRequest& request) {
+                                                    const InertiaFactors& of_stiffness, const ModeRequest& request) {
   std::vector<Index> with_mass;
   const VectorXd diagonal = mass.diagonal();
   for (Index k = 0; k < diagonal.size(); ++k) {

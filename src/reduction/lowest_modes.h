@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "reduction/finite_element_model.h"
-#include "reduction/symmetric_factors.h"
+#include "reduction/inertia_factors.h"
 
 namespace dynalin::reduction {
 
@@ -25,6 +25,6 @@ struct ModeRequest {
 // same frequency brings it with it. K is positive definite with these factors, M is positive semidefinite and may be
 // singular. That none is missing is counted by the signs of K − σM. The error says what failed.
 tl::expected<LowestModes, std::string> lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
-                                                    const SymmetricFactors& of_stiffness, const ModeRequest&);
+                                                    const InertiaFactors& of_stiffness, const ModeRequest&);
 
 }  // namespace dynalin::reduction

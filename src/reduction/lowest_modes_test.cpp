@@ -39,7 +39,7 @@ TEST(LowestModes, of_a_square_plate_all_pairs_are_found) {
   const FiniteElementModel plate = square_plate();
   ASSERT_GT(plate.mass.rows(), 1000);
   const VectorXd all = test::all_squares(plate);
-  const auto modes = lowest_modes(plate.stiffness, plate.mass, SymmetricFactors(plate.stiffness), {.count = 24});
+  const auto modes = lowest_modes(plate.stiffness, plate.mass, InertiaFactors(plate.stiffness), {.count = 24});
   ASSERT_TRUE(modes.has_value()) << modes.error();
   ASSERT_GE(modes->squares.size(), 24);
   for (Index k = 0; k < modes->squares.size(); ++k) EXPECT_NEAR(modes->squares[k] / all[k], 1, 1e-9) << k;
@@ -56,7 +56,7 @@ TEST(LowestModes, below_a_frequency_are_as_many_as_there_are) {
   const VectorXd all = test::all_squares(plate);
   for (const Index k : {0, 1, 6, 13}) {
     const double between = all[k] * (1 + 1e-4);
-    const auto modes = lowest_modes(plate.stiffness, plate.mass, SymmetricFactors(plate.stiffness), {.below = between});
+    const auto modes = lowest_modes(plate.stiffness, plate.mass, InertiaFactors(plate.stiffness), {.below = between});
     ASSERT_TRUE(modes.has_value()) << modes.error();
     EXPECT_EQ(modes->squares.size(), (all.array() < between).count());
   }
@@ -77,7 +77,7 @@ TEST(LowestModes, of_equal_bodies_are_all_pairs) {
   }
   const SparseMatrix K = test::matrix_of(3 * n, k), M = test::matrix_of(3 * n, m);
   const VectorXd all = test::all_squares(one);
-  const auto modes = lowest_modes(K, M, SymmetricFactors(K), {.count = 10});
+  const auto modes = lowest_modes(K, M, InertiaFactors(K), {.count = 10});
   ASSERT_TRUE(modes.has_value()) << modes.error();
   ASSERT_EQ(modes->squares.size(), 12);
   // The dense values are less exact: their rounding is that of the highest frequency.
@@ -94,7 +94,7 @@ TEST(LowestModes, of_a_singular_mass) {
   }
   const Eigen::MatrixXd K(plate.stiffness), M(plate.mass);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(M, K, Eigen::EigenvaluesOnly);
-  const auto modes = lowest_modes(plate.stiffness, plate.mass, SymmetricFactors(plate.stiffness), {.count = 12});
+  const auto modes = lowest_modes(plate.stiffness, plate.mass, InertiaFactors(plate.stiffness), {.count = 12});
   ASSERT_TRUE(modes.has_value()) << modes.error();
   ASSERT_GE(modes->squares.size(), 12);
   for (Index k = 0; k < modes->squares.size(); ++k)
@@ -115,7 +115,7 @@ TEST(LowestModes, of_soft_shapes_without_mass_are_none) {
         mass.insert(r, c) = r == 1 && c == 1 ? 1 + rounding : 1;
       }
     }
-    const auto modes = lowest_modes(stiffness, mass, SymmetricFactors(stiffness), {.count = 2});
+    const auto modes = lowest_modes(stiffness, mass, InertiaFactors(stiffness), {.count = 2});
     ASSERT_TRUE(modes.has_value()) << modes.error();
     ASSERT_EQ(modes->squares.size(), 1);
     EXPECT_NEAR(modes->squares[0], 50, 1e-9);
@@ -127,7 +127,7 @@ TEST(LowestModes, are_no_more_than_masses) {
   FiniteElementModel plate = square_plate();
   SparseMatrix mass(plate.mass.rows(), plate.mass.cols());
   for (const Index k : {10, 301, 642}) mass.insert(k, k) = 2.0;
-  const auto modes = lowest_modes(plate.stiffness, mass, SymmetricFactors(plate.stiffness), {.count = 12});
+  const auto modes = lowest_modes(plate.stiffness, mass, InertiaFactors(plate.stiffness), {.count = 12});
   ASSERT_TRUE(modes.has_value()) << modes.error();
   EXPECT_EQ(modes->squares.size(), 3);
 }

@@ -32,6 +32,12 @@ class MumpsMatrix {
   int& control(int k) { return id_.icntl[k - 1]; }
   double& real_control(int k) { return id_.cntl[k - 1]; }
   const Problem& problem() const { return id_; }
+  // Pivots that are nothing but rounding of the scaled matrix are counted in INFOG(28), not divided by.
+  void count_null_pivots() {
+    constexpr double rounding = 1e-14;
+    control(24) = 1;
+    real_control(3) = -rounding;  // negative: as it stands, not relative to the norm
+  }
 
   // Rows and columns are counted from 0; of a symmetric matrix one triangle.
   void add_place(std::int32_t row, std::int32_t column) { row_.push_back(row + 1), column_.push_back(column + 1); }

@@ -61,10 +61,9 @@ namespace {
 class MumpsFactors {
  public:
   MumpsFactors() {
-    mumps_.control(33) = 1;           // the determinant is wanted
-    mumps_.real_control(1) = 0.1;     // pivot threshold
-    mumps_.control(24) = 1;           // null pivots are counted, not divided by
-    mumps_.real_control(3) = -1e-14;  // relative to the scaled matrix
+    mumps_.control(33) = 1;        // the determinant is wanted
+    mumps_.real_control(1) = 0.1;  // pivot threshold
+    mumps_.count_null_pivots();
   }
 
   // Later matrices have the same pattern.

@@ -8,12 +8,12 @@
 
 namespace dynalin::reduction {
 
-class SymmetricFactors {
+class InertiaFactors {
  public:
   // Of a symmetric matrix with both triangles. Throws std::bad_alloc if memory is short.
-  explicit SymmetricFactors(const SparseMatrix&);
-  ~SymmetricFactors();
-  SymmetricFactors(SymmetricFactors&&) noexcept;
+  explicit InertiaFactors(const SparseMatrix&);
+  ~InertiaFactors();
+  InertiaFactors(InertiaFactors&&) noexcept;
 
   // How many eigenvalues are below zero (Sylvester: the signs of D are theirs).
   Eigen::Index negative() const;

@@ -1,4 +1,4 @@
-#include "reduction/symmetric_factors.h"
+#include "reduction/inertia_factors.h"
 
 #include <new>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 
 namespace dynalin::reduction {
 
-struct SymmetricFactors::Inside {
+struct InertiaFactors::Inside {
   MumpsMatrix<DMUMPS_STRUC_C> mumps{MumpsSymmetry::symmetric, 40};
   std::vector<double> value;
   bool singular = false;
@@ -22,8 +22,7 @@ struct SymmetricFactors::Inside {
       }
     }
     mumps.eliminate_by_metis();
-    mumps.control(24) = 1;           // null pivots are counted, not divided by
-    mumps.real_control(3) = -1e-14;  // relative to the scaled matrix
+    mumps.count_null_pivots();
     const int status = mumps.factor(static_cast<std::int32_t>(matrix.rows()), value.data());
     constexpr int too_small = -9;
     if (status == too_small) throw std::bad_alloc();
@@ -33,16 +32,14 @@ struct SymmetricFactors::Inside {
   }
 };
 
-SymmetricFactors::SymmetricFactors(const SparseMatrix& matrix) : inside_(std::make_unique<Inside>(matrix)) {}
-SymmetricFactors::~SymmetricFactors() = default;
-SymmetricFactors::SymmetricFactors(SymmetricFactors&&) noexcept = default;
+InertiaFactors::InertiaFactors(const SparseMatrix& matrix) : inside_(std::make_unique<Inside>(matrix)) {}
+InertiaFactors::~InertiaFactors() = default;
+InertiaFactors::InertiaFactors(InertiaFactors&&) noexcept = default;
 
-Eigen::Index SymmetricFactors::negative() const { return inside_->mumps.problem().infog[11]; }
-Eigen::Index SymmetricFactors::null_pivots() const {
-  return inside_->singular ? 1 : inside_->mumps.problem().infog[27];
-}
+Eigen::Index InertiaFactors::negative() const { return inside_->mumps.problem().infog[11]; }
+Eigen::Index InertiaFactors::null_pivots() const { return inside_->singular ? 1 : inside_->mumps.problem().infog[27]; }
 
-void SymmetricFactors::solve(Eigen::Ref<Eigen::MatrixXd> x) const {
+void InertiaFactors::solve(Eigen::Ref<Eigen::MatrixXd> x) const {
   // As many columns as stay in the cache with the front they meet.
   constexpr Eigen::Index most = 32;
   for (Eigen::Index first = 0; first < x.cols(); first += most) {
