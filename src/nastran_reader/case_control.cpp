@@ -80,7 +80,6 @@ class ControlReader {
     if (name == "MPC") return select(c_.mpc, command);
     if (begins(name, "CMET")) return select(c_.cmethod, command);
     if (begins(name, "FREQ")) return select(c_.frequency, command);
-    if (begins(name, "LOADS")) return select(c_.loadset, command);
     if (name == "DLOAD") {
       here().dload = number(command);
     } else if (begins(name, "SUBC")) {

@@ -51,7 +51,7 @@ struct Subcase {
 struct CaseControl {
   int solution = 0;  // 0: the deck names none
   Span solution_at;
-  std::optional<Selected> spc, mpc, cmethod, frequency, loadset;
+  std::optional<Selected> spc, mpc, cmethod, frequency;
   std::map<std::string, std::vector<MatrixUse>> matrices;  // K2PP, B2PP, M2PP, K2GG, B2GG, M2GG
   std::map<int, NamedSet> sets;
   Subcase above;                  // what stands above all subcases
