@@ -11,19 +11,11 @@
 #include "command/command_catalogue.h"
 #include "command/run_state.h"
 #include "command/statement_text.h"
+#include "dataset/word_list.h"
 
 namespace dynalin {
 
 namespace {
-
-bool has_word(std::string_view list, std::string_view word) {
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(' ', begin), list.size());
-    if (list.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
-}
 
 // The arguments that were stated, those of the dataset first, by their full names.
 class Stated {
@@ -37,7 +29,7 @@ class Stated {
   const WrittenArgument* last(std::string_view words, std::string_view& word) const {
     const WrittenArgument* found = nullptr;
     for (const auto& [name, argument] : list_) {
-      if (has_word(words, name)) found = argument, word = name;
+      if (lists_word(words, name)) found = argument, word = name;
     }
     return found;
   }

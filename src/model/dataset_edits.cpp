@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "dataset/word_list.h"
 #include "model/model.h"
 
 namespace dynalin {
@@ -17,16 +18,6 @@ using Names = std::span<const std::string_view>;
 std::string key(std::string_view statement, std::int64_t id) { return fmt::format("{}/{}", statement, id); }
 
 bool contains(Names names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
-
-// Whether a list of words with blanks between them has this one.
-bool has_word(std::string_view list, std::string_view word) {
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(' ', begin), list.size());
-    if (list.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
-}
 
 // The argument of this kind that a written name means.
 const ArgumentInfo* info_of(const Kind* kind, std::string_view word) {
@@ -163,7 +154,8 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
     if (!w.has_value && (is_variant(w, variants, kind) || is_list(w, kind))) continue;
     const ArgumentInfo* info = info_of(kind, w.name.text());
     const std::string_view name = info ? info->name : w.name.text();
-    end(target, before, kind, [&](std::string_view old) { return old == name || (info && has_word(info->ends, old)); });
+    end(target, before, kind,
+        [&](std::string_view old) { return old == name || (info && lists_word(info->ends, old)); });
     target.arguments.push_back(w);
     if (info) note_start(command, *info);
   }

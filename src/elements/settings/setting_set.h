@@ -22,6 +22,7 @@
 #include <memory>
 #include <string_view>
 
+#include "dataset/word_list.h"
 #include "model/model.h"
 #include "model/schema.h"
 
@@ -36,16 +37,6 @@ std::vector<std::string> arguments_passed_over(const ElementReader& reader) {
       list.push_back(std::string(reader.label().statement) + "/" + std::string(a.name));
   }
   return list;
-}
-
-// Whether a list of words with blanks between them has this one.
-inline bool lists_word(std::string_view list, std::string_view word) {
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(' ', begin), list.size());
-    if (list.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
 }
 
 // What an argument sets: itself, or what it and others are alternatives of.
