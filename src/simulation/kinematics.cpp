@@ -73,8 +73,7 @@ class KinematicRun {
     while (k <= times_.count() && goes_on) {
       const double target = times_.at(k), left = target - at_.time;
       const double step = turning_.step(at_, std::min({h, largest_step_, step_by_turns(left)}), 2 * largest_turn);
-      // The last two steps before an output are equal.
-      const double t = step >= left * (1 - 1e-9) ? target : at_.time + (2 * step > left ? 0.5 * left : step);
+      const double t = times_.next(at_.time, step, k);
       auto next = attempt(t, passage);
       const bool leaps = !next && nears_singular_ && way_ <= leap;
       if (leaps) next = attempt(at_.time + 2 * (t - at_.time), 4 * leap);

@@ -18,6 +18,9 @@ class OutputTimes {
   std::int64_t count() const { return count_; }  // of intervals
   // The k-th of 0 … count(), exact at both ends.
   double at(std::int64_t k) const;
+  // Where a step of about this length from `now`, which is before the k-th, ends: there if that is no farther, half-way
+  // to it if two steps would pass it, so that the last two are equal.
+  double next(double now, double step, std::int64_t k) const;
 
  private:
   double start_, end_, step_;

@@ -86,7 +86,7 @@ class QuasiStaticRun {
       const double left = target - at_.time, turning = turning_.step(at_, times_.step(), largest_turn);
       h = std::min(h, turning);
       pace = std::min(pace, turning);
-      const double t = h >= left * (1 - 1e-9) ? target : at_.time + (2 * h > left ? 0.5 * left : h);
+      const double t = times_.next(at_.time, h, next_);
       const double step = t - at_.time;
       const bool least = step <= 1.5 * least_rest_step * std::min(times_.step(), steps_of_turning * pace);
       auto next = solve(predicted(t), nearby_);
