@@ -7,9 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "routine/differences.h"
+#include "routine/guarded_values.h"
 #include "routine/routine_context.h"
 #include "routine/routine_findings.h"
 #include "routine/routine_memory.h"
@@ -73,10 +76,9 @@ CurveRoutine::Memory& CurveRoutine::remembered(double u) const {
 
 std::string CurveRoutine::call(double u, int order, Vec3<double>& out) const {
   out = nowhere;
-  constexpr double untouched = -6.0221407e-301;
-  std::array<double, 64> values;
-  values.fill(untouched);
-  std::fill_n(values.begin(), 3, unknown_value);
+  thread_local std::vector<double> memory;
+  GuardedValues values(memory, 3);
+  std::ranges::fill(values.own(), unknown_value);
   const CurveStatement& s = statement_;
   const int npar = s.parameters.count(), iflag = 0;
   const double* par = s.parameters.data();
@@ -89,10 +91,10 @@ std::string CurveRoutine::call(double u, int order, Vec3<double>& out) const {
       const sAdamsCurve curve = {s.id, npar, par, s.closed, s.order, s.first, s.last};
       reinterpret_cast<Signature*>(found_.address)(&curve, u, order, iflag, values.data());
     }
-    if (std::any_of(values.begin() + 3, values.end(), [](double v) { return v != untouched; }))
-      c.fail(fmt::format("it writes more than the three values of {}", s.label));
+    if (values.are_exceeded()) c.fail(fmt::format("it writes more than the three values of {}", s.label));
   });
-  if (failure.empty()) out = {values[0], values[1], values[2]};
+  const std::span<const double> own = values.own();
+  if (failure.empty()) out = {own[0], own[1], own[2]};
   return failure;
 }
 

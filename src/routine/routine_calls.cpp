@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "routine/call_routine.h"
 #include "routine/compiled_routine.h"
 #include "routine/given_inputs.h"
+#include "routine/guarded_values.h"
 #include "routine/routine_memory.h"
 
 namespace dynalin {
@@ -33,21 +35,16 @@ ReadArray read_array(const RoutineContext& c, int array, int size) {
 
 }  // namespace
 
-// Values that a routine writes beyond its own would be somebody else's: there is room behind them, and it is looked at.
 void CompiledRoutine::call(double time, int flag, int iflag, double* values) const {
-  constexpr std::size_t room = 64;
-  constexpr double untouched = -6.0221407e-301;
-  thread_local std::vector<double> guarded;
-  guarded.assign(values_ + room, untouched);
-  std::copy_n(values, values_, guarded.begin());
+  thread_local std::vector<double> memory;
+  GuardedValues guarded(memory, values_);
+  std::copy_n(values, values_, guarded.data());
   call_with_arguments(time, flag, iflag, guarded.data());
-  std::copy_n(guarded.begin(), values_, values);
-  const auto beyond = std::span(guarded).subspan(values_);
-  if (std::ranges::all_of(beyond, [](double v) { return v == untouched; })) return;
-  const auto last = std::find_if(beyond.rbegin(), beyond.rend(), [](double v) { return v != untouched; });
-  RoutineContext::current()->fail(fmt::format("it writes {} values, and {} has {}",
-                                              values_ + static_cast<std::size_t>(beyond.rend() - last),
-                                              statement_.label, values_));
+  std::ranges::copy(guarded.own(), values);
+  if (guarded.are_exceeded()) {
+    RoutineContext::current()->fail(
+        fmt::format("it writes {} values, and {} has {}", guarded.written(), statement_.label, values_));
+  }
 }
 
 void CompiledRoutine::call_with_arguments(double time, int flag, int iflag, double* values) const {
