@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <new>
 #include <numbers>
 #include <optional>
@@ -96,23 +95,10 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   out.vectors.resize(n, z + static_cast<Eigen::Index>(order.size()));
   out.vectors.leftCols(z) = zero.vectors().cast<Complex>();
   out.vectors.leftCols(z).colwise().normalize();
-  for (Eigen::Index k = 0; k < z; ++k) {
-    EigenMode mode;
-    mode.is_real = mode.structural_zero = true;
-    mode.condition = zero.defective() ? std::numeric_limits<double>::infinity() : 1.0;
-    out.modes.push_back(std::move(mode));
-  }
+  out.modes.assign(static_cast<std::size_t>(z), structural_zero_mode(zero.defective()));
   for (const std::size_t k : order) {
-    EigenMode mode;
-    mode.eigenvalue_hz = pairs.values[k] / cycle;
-    mode.is_real = pairs.values[k].imag() == 0;
-    const auto at = static_cast<Eigen::Index>(k);
-    out.vectors.col(static_cast<Eigen::Index>(out.modes.size())) = pairs.right.col(at);
-    mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
-    mode.error_bound_hz = trust[k].bound / cycle;
-    mode.refined = trust[k].refined;
-    mode.cluster_size = static_cast<std::size_t>(trust[k].cluster);
-    out.modes.push_back(std::move(mode));
+    out.vectors.col(static_cast<Eigen::Index>(out.modes.size())) = pairs.right.col(static_cast<Eigen::Index>(k));
+    out.modes.push_back(mode_of(pairs, trust[k], k));
   }
   const Eigen::MatrixXcd image = real_product(A, out.vectors);
   const double size = A.norm();

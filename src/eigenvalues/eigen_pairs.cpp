@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/cycle.h"
 #include "base/dense_products.h"
 
 namespace dynalin {
@@ -143,6 +144,25 @@ std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& 
     std::stable_sort(begin_of_ties, end_of_ties, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   }
   return order;
+}
+
+EigenMode mode_of(const EigenPairs& pairs, const EigenTrust& trust, std::size_t at) {
+  const auto column = static_cast<Eigen::Index>(at);
+  EigenMode mode;
+  mode.eigenvalue_hz = pairs.values[at] / cycle;
+  mode.is_real = pairs.real(column);
+  mode.condition = 1 / std::abs(pairs.left.col(column).dot(pairs.right.col(column)));
+  mode.error_bound_hz = trust.bound / cycle;
+  mode.refined = trust.refined;
+  mode.cluster_size = static_cast<std::size_t>(trust.cluster);
+  return mode;
+}
+
+EigenMode structural_zero_mode(bool defective) {
+  EigenMode mode;
+  mode.is_real = mode.structural_zero = true;
+  mode.condition = defective ? std::numeric_limits<double>::infinity() : 1.0;
+  return mode;
 }
 
 void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {

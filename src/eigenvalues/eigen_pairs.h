@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "dynalin/results.h"
 #include "eigenvalues/zero_modes.h"
 
 namespace dynalin {
@@ -54,6 +55,10 @@ void split_pairs_of_equal_values(EigenPairs&);
 // Places of values in the order in which modes are printed: real ones first by ascending modulus, then complex pairs by
 // ascending imaginary part.
 std::vector<std::size_t> printed_order(const std::vector<std::complex<double>>& values);
+
+// What is said of one of them, and of a zero of the structure; backward errors are still to come.
+EigenMode mode_of(const EigenPairs&, const EigenTrust&, std::size_t at);
+EigenMode structural_zero_mode(bool defective);
 
 // From [N C; 0 B] to A: vectors of B become unit vectors of A. The part of a right one in the space of the zero modes
 // follows from (N − λ) u = −C y.

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "base/blas_threads.h"
-#include "base/cycle.h"
 #include "base/parallel.h"
 #include "perturbation/perturbed_point.h"
 #include "selected_modes/backward_errors.h"
@@ -164,24 +163,13 @@ class Solution {
     out.vectors.leftCols(z) = zeros.cast<Complex>();
     const Eigen::VectorXd of_zeros = sizes_of_images(equations_, zeros);
     for (Index k = 0; k < z; ++k) {
-      EigenMode mode;
+      EigenMode& mode = out.modes.emplace_back(structural_zero_mode(zero.defective()));
       mode.backward_error = backward_error(of_zeros(k));
-      mode.is_real = mode.structural_zero = true;
-      mode.condition = zero.defective() ? std::numeric_limits<double>::infinity() : 1.0;
-      out.modes.push_back(std::move(mode));
     }
     for (const std::size_t k : order) {
-      EigenMode mode;
-      mode.eigenvalue_hz = pairs.values[k] / cycle;
-      mode.is_real = pairs.values[k].imag() == 0;
-      const auto at = static_cast<Index>(k);
-      out.vectors.col(static_cast<Index>(out.modes.size())) = pairs.right.col(at);
-      mode.condition = 1 / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
+      out.vectors.col(static_cast<Index>(out.modes.size())) = pairs.right.col(static_cast<Index>(k));
+      EigenMode& mode = out.modes.emplace_back(mode_of(pairs, found.trust[k], k));
       mode.backward_error = backward_error(found.residual[k] + std::abs(pairs.values[k] - computed[k]));
-      mode.error_bound_hz = found.trust[k].bound / cycle;
-      mode.refined = found.trust[k].refined;
-      mode.cluster_size = static_cast<std::size_t>(found.trust[k].cluster);
-      out.modes.push_back(std::move(mode));
     }
     if (selected_.complete) {
       const ModeRegion& region = search_.region();
