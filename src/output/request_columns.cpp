@@ -7,25 +7,11 @@
 #include <numbers>
 #include <utility>
 
+#include "base/yaw_pitch_roll.h"
+
 namespace dynalin {
 
 namespace {
-
-// Yaw, pitch and roll of the orientation that has these 3-1-3 angles, as the functions YAW, PITCH and ROLL count them.
-std::array<double, 3> yaw_pitch_roll(double psi, double theta, double phi) {
-  const double cp = std::cos(psi), sp = std::sin(psi), ct = std::cos(theta), st = std::sin(theta), cf = std::cos(phi),
-               sf = std::sin(phi);
-  // R = Rz(ψ) Rx(θ) Rz(φ)
-  const double r11 = cp * cf - sp * ct * sf, r21 = sp * cf + cp * ct * sf, r31 = st * sf;
-  const double r12 = -cp * sf - sp * ct * cf, r22 = -sp * sf + cp * ct * cf, r32 = st * cf;
-  const double r13 = sp * st, r23 = -cp * st, r33 = ct;
-  const double cosine = std::hypot(r11, r21), pitch = std::atan2(r31, cosine);
-  constexpr double vertical = 1e-12;
-  if (cosine > vertical) return {std::atan2(r21, r11), pitch, std::atan2(r32, r33)};
-  // Only yaw ± roll is determined.
-  const double sign = r31 > 0 ? 1.0 : -1.0;
-  return {std::atan2(-r12 - sign * r23, r22 - sign * r13), pitch, 0.0};
-}
 
 bool fits(const std::string& text, std::size_t width) { return text.size() < width; }
 
@@ -41,7 +27,7 @@ RequestColumns columns_of(const RequestInfo& info, const std::vector<double>& va
   if (info.kind == RequestKind::functions) return columns;
   if (info.kind == RequestKind::displacement) {
     if (settings.yaw_pitch_roll) {
-      const auto turned = yaw_pitch_roll(*columns[5], *columns[6], *columns[7]);
+      const auto turned = yaw_pitch_roll(rotation_313(*columns[5], *columns[6], *columns[7]));
       std::copy(turned.begin(), turned.end(), columns.begin() + 5);
     }
     for (std::size_t k = 5; k < 8 && angles == AngleUnit::degrees; ++k) *columns[k] *= 180 / std::numbers::pi;
