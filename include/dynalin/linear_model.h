@@ -37,6 +37,7 @@ class LinearModel {
   // alone: time and memory grow with the model, not with the cube and square of it.
   Modes modes(const ModeSelection&, bool with_shapes = true) const;
   // What moves in them, and where the energy is; `modes` are those of this model. ENERGY_PER_MODE needs all of them.
+  // Throws if they are not, or have no shapes, and where the request names a table or a marker that does not exist.
   ModalTables tables(const EigenSolution& modes, const ModalTableRequest&) const;
 
   const LinearRequest& request() const;

@@ -21,6 +21,8 @@ struct ModeRange {
 
   static ModeRange all() { return {1, std::numeric_limits<std::int64_t>::max()}; }
   bool any() const { return first > 0 || highest_hz > 0; }
+  // Whether it holds this mode, which has this number from 1: by its frequency where frequencies are stated, which real
+  // eigenvalues have none of, else by its number.
   bool has(std::size_t number, const EigenMode&) const;
 };
 

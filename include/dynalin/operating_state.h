@@ -40,7 +40,7 @@ struct Load {
   std::string variant;    // "REVOLUTE", empty if the statement has one kind only
   std::string view_name;  // empty if it has none
   std::int64_t marker_I = 0, marker_J = 0;
-  Triple force{}, torque{};
+  Triple force{}, torque{};  // [force], [force·length]
   // The same along the axes of a marker: RM of VFORCE, VTORQUE and GFORCE, J of everything else; 0 stands for the
   // global frame, which takes the place of floating markers.
   std::int64_t axes = 0;
@@ -65,15 +65,15 @@ struct VariableValue {
 struct StateValue {
   ElementId element;  // LSE/4
   std::string view_name;
-  int number = 1;  // among the states of the element
-  double value = 0, rate = 0;
+  int number = 1;              // among the states of the element
+  double value = 0, rate = 0;  // [unit of the state, which its equation gives it], [that/time]
 };
 
 // A coordinate beside the poses of bodies: a parameter of a curve at a point of contact, a modal coordinate.
 struct ParameterValue {
   ElementId element;  // PTCV/1
   std::string name;
-  double value = 0, rate = 0;
+  double value = 0, rate = 0;  // [of the curve's parameter; 1 of a modal coordinate], [that/time]
 };
 
 // PINPUT and POUTPUT: the values of their VARIABLEs.
@@ -107,7 +107,7 @@ struct Stability {
 // What a static analysis found, the solution itself: at rest.
 struct StaticResult {
   int iterations = 0;
-  double imbalance = 0;  // largest unbalanced force, or moment by the length of the model
+  double imbalance = 0;  // largest unbalanced force [force], or moment by the length of the model
   Stability stability;
   OperatingState at_rest;
 };

@@ -16,15 +16,19 @@ namespace dynalin {
 // What a static analysis takes; a value that is not stated is that of EQUILIBRIUM in the dataset, or its default.
 struct StaticRequest {
   bool restore_velocities = true;  // afterwards the velocities that the dataset states come back at the new pose
-  std::optional<double> error{}, imbalance{};                   // what is taken where no exact equilibrium is found
+  // What is taken where no exact equilibrium is found: Newton's step in lengths of the model, radians and sizes of
+  // states; unbalanced forces, and moments by the length of the model [force].
+  std::optional<double> error{}, imbalance{};
   std::optional<double> translation_limit{}, rotation_limit{};  // of a step [length], [rad]
   std::optional<std::int64_t> iteration_limit{};
   std::optional<bool> newton{};                // Newton's method first, as METHOD=ORIGINAL says
   std::optional<double> stability{};           // of it, a multiple of masses and dampings that holds what is free
   std::optional<std::vector<bool>> pattern{};  // of it, which iterations evaluate the Jacobian, over and over
   std::optional<bool> by_motion{};             // a damped motion first, as DYNAMIC says
-  std::optional<double> global_damping{}, acceleration_error{}, kinetic_energy_error{}, settling_time{};  // of it
-  std::function<void(int iteration, double imbalance)> progress{};  // called with every iteration
+  std::optional<double> global_damping{};      // of it, of every part [force·time/length]
+  // Of it: where it may be at rest [length/time²], [mass·length²/time²]; the longest that it lasts [time].
+  std::optional<double> acceleration_error{}, kinetic_energy_error{}, settling_time{};
+  std::function<void(int iteration, double imbalance)> progress{};  // called with every iteration [force]
 };
 
 // What finding a consistent point takes; nothing: the value of IC in the dataset, or its default.
