@@ -32,15 +32,13 @@ double solid_angle(const Vector& a, const Vector& b, const Vector& c) {
   return 2 * std::atan2(dot(a, cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
-// Along a mantle from the narrower rim on, so that nothing is left where it comes to a point: ∫ r dz, ∫ r z dz and
-// ∫ r² dz.
+// Along a mantle from a height on: ∫ r dz, ∫ r (z − base) dz and ∫ r² dz.
 struct MantleIntegrals {
   double area, height, radius;
-  MantleIntegrals(const QuadricSolid& s, double z) {
-    const bool high = s.radius(true) < s.radius(false);
-    const double base = s.height(high), r = s.radius(high), k = s.slope(), d = z - base;
+  MantleIntegrals(const QuadricSolid& s, double base, double z) {
+    const double r = s.radius_at(base), k = s.slope(), d = z - base;
     area = d * (r + 0.5 * k * d);
-    height = d * (r * base + d * (0.5 * (r + k * base) + d * k / 3));
+    height = d * d * (0.5 * r + d * k / 3);
     radius = d * (r * r + d * (r * k + d * k * k / 3));
   }
 };
@@ -69,7 +67,7 @@ void SolidSums::add(const FacetSection& section, const std::vector<ConicPiece>& 
 
   // The surface of the solid sweeps over what these do not bound: what moves in is what goes out through the facets.
   const double h = dot(n, start);
-  net_ += n * m.area, height_ += h * m.area, height_moment_ += m.first * h;
+  net_ += n * m.area, height_ += h * m.area, height_moment_ += m.first * h, along_ += m.first * n.z;
   overlap.volume_by_shift -= n * m.area;
   overlap.volume_by_turn -= cross(m.first, n);
   overlap.moment_by_shift -= outer(m.first, n);
@@ -91,7 +89,7 @@ void SolidSums::add_arc(const ConicPiece& p, const Vector& normal, PlaneMoments&
     curved.area_by_shift -= back, curved.area_by_turn -= cross(at.at, back);
   });
   if (solid_.has_ends()) {
-    add_to_mantle(p);
+    on_mantle_.push_back(p);
   } else {
     keep_on_sphere(p, normal);
   }
@@ -113,12 +111,12 @@ void SolidSums::add_to_mantle(const ConicPiece& p) {
     const double dz = ConicPiece::tangent(solid_, p, at).z * weight, z = at.at.z, r = solid_.radius_at(z);
     turn += angle_about_z(last, at.at), last = at.at;
     area_ -= r * turn * dz;
-    first_ -= (grown(turn) * (r * r) + Vector{0, 0, r * z * turn}) * dz;
+    first_ -= (grown(turn) * (r * r) + Vector{0, 0, r * (z - base_) * turn}) * dz;
   };
   for (std::size_t k = 0; k < gauss_14.size(); ++k) add(gauss_14[k][0], gauss_14[k][1]);
   for (std::size_t k = gauss_14.size(); k-- > 0;) add(1 - gauss_14[k][0], gauss_14[k][1]);
   turn += angle_about_z(last, p.to);
-  const MantleIntegrals q(solid_, p.to.z);
+  const MantleIntegrals q(solid_, base_, p.to.z);
   turn_ += turn, area_ += q.area * turn;
   first_ += grown(turn) * q.radius + Vector{0, 0, q.height * turn};
 }
@@ -169,35 +167,41 @@ bool SolidSums::finish(bool lower, bool upper) {
   return true;
 }
 
+// About the place of the axis from which what bounds the volume on the mantle reaches to the wider end: there nothing
+// is large that cancels, whether the volume is small or the solid comes to a point in it.
 bool SolidSums::finish_frustum(bool lower, bool upper) {
   constexpr double one_turn = 1e-3;
-  const double steep = std::hypot(1, solid_.slope()), r0 = solid_.radius_at(0) / steep;
+  const bool widens = solid_.radius(true) > solid_.radius(false);
+  base_ = solid_.height(widens);
+  for (const ConicPiece& p : on_mantle_) {
+    for (const double z : {p.from.z, p.to.z}) base_ = widens ? std::min(base_, z) : std::max(base_, z);
+  }
+  for (const ConicPiece& p : on_mantle_) add_to_mantle(p);
+
+  const double steep = std::hypot(1, solid_.slope()), r0 = solid_.radius_at(base_) / steep;
+  Vector moment = height_moment_ - along_ * base_ + Vector{0, 0, base_ * (base_ * net_.z - height_)};
+  double volume = height_ - base_ * net_.z;
   std::array<double, 2> turns;
-  std::array<Vector, 2> firsts;
+  Vector first = first_;
+  curved.area = area_;
   for (const bool high_end : {false, true}) {
     const End& end = ends_[high_end];
-    const double r = solid_.radius(high_end);
+    const double sign = high_end ? 1 : -1, r = solid_.radius(high_end), h = solid_.height(high_end) - base_;
     turns[high_end] = between_none_and(whole_turn, end.turn, high_end ? upper : lower);
     Overlap::Part& part = high_end ? high : low;
     part.area = 0.5 * r * r * turns[high_end] + end.area;
-    firsts[high_end] = end.first + Vector{0, 0, solid_.height(high_end) * part.area};
+    volume += sign * h * part.area;
+    moment += (end.first + Vector{0, 0, h * part.area}) * (sign * h);
+    const MantleIntegrals whole(solid_, base_, solid_.height(high_end));
+    curved.area += sign * whole.area * turns[high_end];
+    first.z += sign * whole.height * turns[high_end];
+    if (r > 0) first += Vector{end.way.y, -end.way.x, 0} * (sign * whole.radius / r);
   }
   // A way around the mantle and back by another one.
   if (std::abs(turns[0] - turns[1] - turn_) > one_turn) return false;
-  curved.area = area_;
-  Vector first = first_;
-  for (const bool high_end : {false, true}) {
-    const MantleIntegrals whole(solid_, solid_.height(high_end));
-    const double sign = high_end ? 1 : -1, r = solid_.radius(high_end);
-    curved.area += sign * whole.area * turns[high_end];
-    first.z += sign * whole.height * turns[high_end];
-    if (r > 0) first += Vector{ends_[high_end].way.y, -ends_[high_end].way.x, 0} * (sign * whole.radius / r);
-  }
-  curved.area *= steep, first = first * steep;
-
-  const double h0 = solid_.height(false), h1 = solid_.height(true);
-  overlap.volume = (height_ + r0 * curved.area + h1 * high.area - h0 * low.area) / 3;
-  overlap.moment = (height_moment_ + first * r0 + firsts[1] * h1 - firsts[0] * h0) * 0.25;
+  curved.area *= steep;
+  overlap.volume = (volume + r0 * curved.area) / 3;
+  overlap.moment = (moment + first * (steep * r0)) * 0.25 + Vector{0, 0, base_ * overlap.volume};
   return true;
 }
 

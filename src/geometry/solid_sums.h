@@ -40,9 +40,11 @@ class SolidSums {
   bool finish_ellipsoid(bool holds_pole);
 
   const QuadricSolid& solid_;
-  Vector net_{};       // ∫ n dS of the facets
-  double height_ = 0;  // ∫ n · x dS
-  Vector height_moment_{};
+  Vector net_{};                      // ∫ n dS of the facets
+  double height_ = 0;                 // ∫ n · x dS
+  Vector height_moment_{}, along_{};  // ∫ (n · x) x dS, ∫ n_z x dS
+  double base_ = 0;                   // height on the axis
+  std::vector<ConicPiece> on_mantle_;
   double turn_ = 0, area_ = 0;
   Vector first_{};
   std::array<End, 2> ends_;
