@@ -19,7 +19,7 @@ using Index = Eigen::Index;
 using ComplexMatrix = Eigen::MatrixXcd;
 
 constexpr double least_rcond = 1e-6;  // of the products of both bases
-constexpr double mixed = 1e-3;        // |y_iᴴ x_j| against |y_iᴴ x_i|, where they should be dual
+constexpr double least_mixed = 1e-3;  // |y_iᴴ x_j| against |y_iᴴ x_i|, where they should be dual
 constexpr double beside = 1e-5;       // of the shift from them, relative
 constexpr int steps = 4;              // of the iteration for the subspace
 // Of T − I/(λ − σ) along the subspace, against 1/|λ − σ|: what is more belongs to a chain.
@@ -32,7 +32,7 @@ bool are_mixed(const EigenPairs& pairs, const std::vector<Index>& group) {
     const double unit = std::abs(pairs.left.col(i).dot(pairs.right.col(i)));
     if (!(unit > least_rcond)) return true;
     for (const Index j : group) {
-      if (j != i && !(std::abs(pairs.left.col(i).dot(pairs.right.col(j))) <= mixed * unit)) return true;
+      if (j != i && !(std::abs(pairs.left.col(i).dot(pairs.right.col(j))) <= least_mixed * unit)) return true;
     }
   }
   return false;
