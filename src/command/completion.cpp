@@ -26,7 +26,9 @@ class Completion {
     if (!model_) return;
     std::vector<std::int32_t> ids;
     const auto add = [&](std::int32_t id, const auto&) { ids.push_back(id); };
-    if (statement == "MARKER") {
+    const auto kinds = catalogue();
+    const auto kind = std::ranges::find(kinds, statement, &Kind::statement);
+    if (kind != kinds.end() && (*kind)->role == Kind::Role::marker) {
       model_->marker_ids.for_each(add);
     } else if (const auto bodies = model_->body_ids.find(statement); bodies != model_->body_ids.end()) {
       bodies->second.for_each(add);
@@ -43,16 +45,6 @@ class Completion {
   const Model* model_;
   std::vector<std::string> list_;
 };
-
-// The statement whose ids a value has: of I= and RM= markers, of PINPUT= plant inputs.
-std::string_view statement_of(const ArgumentInfo& argument) {
-  if (argument.value == "marker" || argument.name == "I" || argument.name == "J" || argument.name == "RM")
-    return "MARKER";
-  if (argument.value == "body") return "PART";
-  if (argument.value == "variables") return "VARIABLE";
-  if (argument.value == "joints") return "JOINT";
-  return statement_name(argument.name);
-}
 
 }  // namespace
 
@@ -99,7 +91,7 @@ std::vector<std::string> completions(std::string_view line, const Model* model) 
     const auto which = find_keyword(line.substr(begin, end - begin), names);
     if (!which) return {};
     if (kind.classes.empty()) {
-      found.offer_ids(statement_of(arguments[*which]));
+      found.offer_ids(arguments[*which].ids_of);
     } else {  // ids of the class
       const std::size_t comma = line.find(',');
       const std::string_view word = line.substr(slash + 1, comma == std::string_view::npos ? 0 : comma - slash - 1);

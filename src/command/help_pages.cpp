@@ -27,15 +27,16 @@ void print_arguments(std::ostream& out, const std::vector<ArgumentInfo>& argumen
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const ArgumentInfo& a = arguments[k];
     std::string name(a.name);
-    if (!a.value.empty()) name += a.value_optional ? fmt::format("[={}]", a.value) : fmt::format("={}", a.value);
+    const std::string value = a.value_text();
+    if (!value.empty()) name += a.value_optional ? fmt::format("[={}]", value) : fmt::format("={}", value);
     const auto alike = [&](const ArgumentInfo& b) {
-      return !a.help.empty() && b.help == a.help && b.value == a.value && b.unit == a.unit && !b.required;
+      return !a.help.empty() && b.help == a.help && b.value_text() == value && b.unit == a.unit && !b.required;
     };
     std::size_t last = k;
     while (last + 1 < arguments.size() && alike(arguments[last + 1]))
       name += fmt::format(", {}", arguments[++last].name);
     std::string text(a.help);
-    if (!a.unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", a.unit);
+    if (!a.unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", a.unit.text);
     if (a.repeats) text += text.empty() ? "may be repeated" : ", may be repeated";
     if (a.required) text += text.empty() ? "required" : ", required";
     constexpr std::size_t width = 24, longest = 100;
@@ -55,7 +56,8 @@ void print_arguments(std::ostream& out, const std::vector<ArgumentInfo>& argumen
 }
 
 bool same(const ArgumentInfo& a, const ArgumentInfo& b) {
-  return a.name == b.name && a.value == b.value && a.help == b.help && a.required == b.required && a.unit == b.unit;
+  return a.name == b.name && a.value_text() == b.value_text() && a.help == b.help && a.required == b.required &&
+         a.unit == b.unit;
 }
 bool contains(std::span<const ArgumentInfo> list, const ArgumentInfo& a) {
   return std::any_of(list.begin(), list.end(), [&](const ArgumentInfo& b) { return same(a, b); });

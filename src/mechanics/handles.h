@@ -40,6 +40,7 @@ template <class Class>
 struct ElementRef : ElementHandle {};
 
 // clang-format off
+struct MarkerClass   { static constexpr std::string_view statement = "MARKER"; };
 struct VariableClass { static constexpr std::string_view statement = "VARIABLE"; };
 struct ArrayClass    { static constexpr std::string_view statement = "ARRAY"; };
 struct MatrixClass   { static constexpr std::string_view statement = "MATRIX"; };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -11,43 +10,13 @@
 #include "dataset/dataset.h"
 #include "mechanics/handles.h"
 #include "mechanics/kernel.h"
+#include "model/argument_info.h"
 #include "routine/routine_kinds.h"
 
 namespace dynalin {
 
 struct Model;
 class ElementReader;
-
-// What an argument says of the start of the body, state or value that its statement defines.
-enum class StatedStart : std::uint8_t {
-  nothing,
-  place,          // where all of it begins
-  value,          // a value of a state
-  velocity,       // one component of a velocity
-  velocity_axes,  // the axes along which all components of that of the mass centre are stated
-  angular_axes,   // the same of the angular velocity
-  alone,          // a thing of its own
-};
-
-// One argument as the manual and the reader of abbreviations see it.
-struct ArgumentInfo {
-  std::string_view name;
-  bool required = false;
-  bool is_flag = false;    // a bare keyword without value
-  std::string_view value;  // "marker", "real", "expression" …
-  std::string_view unit;
-  std::string_view help;
-  bool repeats = false;         // may be written several times
-  bool value_optional = false;  // a bare keyword, or one with a value
-  bool elsewhere = false;       // an argument of another type of the statement, known here so that it keeps its name
-  std::string_view ends{};      // arguments that go where a command states this one, blanks between: "ZG XG"
-  StatedStart start = StatedStart::nothing;
-  std::size_t count = 0;  // of numbers that it takes; 0 where that is open, and where it takes none
-  // What its numbers are where it is not stated; nothing where that depends on other arguments.
-  std::optional<double> unstated() const { return of_new ? std::optional(of_new()) : of_list; }
-  double (*of_new)() = nullptr;     // of a plain number: what its member is made with
-  std::optional<double> of_list{};  // of a list: what its table says
-};
 
 class ElementSet;
 

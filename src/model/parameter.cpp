@@ -21,12 +21,6 @@ Refusal refusal(std::string_view code, std::string message, std::string hint = {
 
 std::string name_of(const ElementId& e) { return e.id == 0 ? e.statement : e.text(); }
 
-bool takes_numbers(const ArgumentInfo& a) {
-  return a.repeats || a.value == "real" || a.value == "reals" || a.value == "x, y, z" || a.value == "integer";
-}
-// What may be a function or a word as well, and is a number where it is written so: CRATIO of a FLEX_BODY.
-bool may_be_number(const ArgumentInfo& a) { return a.value == "expression" || a.value == "text"; }
-
 // One argument of a statement that is a number or several.
 struct Place {
   const Statement* statement = nullptr;  // nothing where the dataset need not have it
@@ -63,7 +57,7 @@ class Finder {
     if (!takes_numbers(*place.argument) && !is_written_number(place)) {
       return refusal("expected-number",
                      fmt::format("{} of {} is {}, no number", place.argument->name, name_of(p.element),
-                                 place.argument->is_flag ? "a bare word" : place.argument->value));
+                                 place.argument->is_flag ? "a bare word" : place.argument->value_text()));
     }
     const std::size_t count = place.argument->count;
     if (p.list != 1 && !place.argument->repeats)

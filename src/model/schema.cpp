@@ -279,22 +279,21 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
     return std::nullopt;
   }
   if (!info.is_flag && !info.value_optional && !written.has_value) {
-    r.error("missing-value", written.name, fmt::format("{} of {} needs a value: {}", info.name, owner, info.value),
-            std::string(info.help));
+    r.error("missing-value", written.name,
+            fmt::format("{} of {} needs a value: {}", info.name, owner, info.value_text()), std::string(info.help));
     return std::nullopt;
   }
   return k;
 }
 
-void warn_of_degrees(std::string_view argument, std::string_view unit, const WrittenArgument& written,
-                     ElementReader& r) {
-  if (unit.empty() || unit.find("rad") != std::string_view::npos) return;
+void warn_of_degrees(std::string_view argument, const Unit& unit, const WrittenArgument& written, ElementReader& r) {
+  if (unit.empty() || unit.has_angle) return;
   const auto value = written.value();
   const auto degrees = std::find_if(value.begin(), value.end(), [](const Token& t) { return t.degrees; });
   if (degrees == value.end()) return;
   r.warning("degrees-without-angle", {&r.source(), degrees->offset, degrees->length},
             fmt::format("D means degrees, and {} is no angle: its number is multiplied by π/180", argument),
-            fmt::format("{} takes [{}]; write E for an exponent", argument, unit));
+            fmt::format("{} takes [{}]; write E for an exponent", argument, unit.text));
 }
 
 bool check_required(std::span<const ArgumentInfo> infos, ElementReader& r) {

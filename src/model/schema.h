@@ -15,22 +15,22 @@
 
 namespace dynalin {
 
-// Dimensions as text for the manual; a dataset has consistent units, so nothing is converted.
+// Dimensions; a dataset has consistent units, so nothing is converted.
 namespace unit {
-inline constexpr std::string_view none = "";
-inline constexpr std::string_view length = "length";
-inline constexpr std::string_view angle = "rad";
-inline constexpr std::string_view mass = "mass";
-inline constexpr std::string_view force = "force";
-inline constexpr std::string_view torque = "force·length";
-inline constexpr std::string_view velocity = "length/time";
-inline constexpr std::string_view angular_velocity = "rad/time";
-inline constexpr std::string_view acceleration = "length/time²";
-inline constexpr std::string_view inertia = "mass·length²";
-inline constexpr std::string_view stiffness = "force/length";
-inline constexpr std::string_view damping = "force·time/length";
-inline constexpr std::string_view angular_stiffness = "force·length/rad";
-inline constexpr std::string_view angular_damping = "force·length·time/rad";
+inline constexpr Unit none;
+inline constexpr Unit length = "length";
+inline constexpr Unit angle = {"rad", true};
+inline constexpr Unit mass = "mass";
+inline constexpr Unit force = "force";
+inline constexpr Unit torque = "force·length";
+inline constexpr Unit velocity = "length/time";
+inline constexpr Unit angular_velocity = {"rad/time", true};
+inline constexpr Unit acceleration = "length/time²";
+inline constexpr Unit inertia = "mass·length²";
+inline constexpr Unit stiffness = "force/length";
+inline constexpr Unit damping = "force·time/length";
+inline constexpr Unit angular_stiffness = {"force·length/rad", true};
+inline constexpr Unit angular_damping = {"force·length·time/rad", true};
 }  // namespace unit
 
 // Marks an argument of another type of the statement, so that an abbreviation here does not take it.
@@ -70,7 +70,7 @@ struct Argument {
   std::string_view name;
   Slot<E> slot;
   bool required = false;
-  std::string_view unit{};
+  Unit unit{};
   double minimum = -std::numeric_limits<double>::infinity();
   std::string_view help{};
   double maximum = std::numeric_limits<double>::infinity();
@@ -78,6 +78,7 @@ struct Argument {
   StatedStart start = StatedStart::nothing;
   std::size_t count = 0;             // of a list: so many numbers
   std::optional<double> unstated{};  // of a list: each of its numbers where it is not stated
+  std::string_view ids_of{};         // of ids that are kept as they are written: the statement whose they are
 };
 
 // Reading one value into one member: false after a reported error.
@@ -122,50 +123,69 @@ bool read_value(std::vector<ElementRef<Class>>& slot, const WrittenArgument& w, 
 
 namespace detail {
 
-// Names of the value types, for the manual.
+// Of members that refer to elements of one class.
 template <class V>
-constexpr std::string_view value_text() {
+struct Reference {
+  static constexpr std::string_view statement{};
+};
+template <>
+struct Reference<MarkerId> {
+  static constexpr std::string_view statement = MarkerClass::statement;
+};
+template <class Class>
+struct Reference<ElementRef<Class>> {
+  static constexpr std::string_view statement = Class::statement;
+};
+template <class Class>
+struct Reference<std::vector<ElementRef<Class>>> {
+  static constexpr std::string_view statement = Class::statement;
+};
+
+template <class V>
+inline constexpr bool is_list = false;
+template <class V>
+inline constexpr bool is_list<std::vector<V>> = true;
+
+// What a member of this type takes.
+template <class V>
+constexpr ValueKind value_kind() {
   if constexpr (std::is_same_v<V, bool> || std::is_same_v<V, Obsolete>)
-    return "";
+    return ValueKind::none;
   else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>>)
-    return "real";
+    return ValueKind::number;
   else if constexpr (std::is_same_v<V, Vector> || std::is_same_v<V, std::optional<Vector>>)
-    return "x, y, z";
+    return ValueKind::vector;
   else if constexpr (std::is_same_v<V, std::vector<double>>)
-    return "reals";
+    return ValueKind::numbers;
   else if constexpr (std::is_same_v<V, std::vector<std::vector<double>>>)
-    return "reals, repeated";
+    return ValueKind::lists;
   else if constexpr (std::is_same_v<V, std::optional<std::int64_t>> || std::is_same_v<V, WordOrCount>)
-    return "integer";
+    return ValueKind::integer;
   else if constexpr (std::is_same_v<V, OptionalWord>)
-    return "word";
+    return ValueKind::word;
   else if constexpr (std::is_same_v<V, UserSubroutine>)
-    return "USER(…)";
+    return ValueKind::routine_call;
   else if constexpr (std::is_same_v<V, MarkerId>)
-    return "marker";
+    return ValueKind::marker;
   else if constexpr (std::is_same_v<V, BodyId>)
-    return "body";
-  else if constexpr (std::is_same_v<V, std::vector<VariableRef>>)
-    return "variables";
-  else if constexpr (std::is_same_v<V, std::vector<JointRef>>)
-    return "joints";
+    return ValueKind::body;
   else if constexpr (std::is_same_v<V, std::vector<std::int64_t>>)
-    return "ids";
+    return ValueKind::ids;
   else if constexpr (std::is_same_v<V, Expression>)
-    return "expression";
+    return ValueKind::expression;
   else if constexpr (std::is_same_v<V, VectorExpression>)
-    return "vector";
+    return ValueKind::vector_expression;
   else if constexpr (std::is_same_v<V, std::string>)
-    return "text";
+    return ValueKind::text;
   else if constexpr (std::is_same_v<V, std::vector<std::string>>)
-    return "words";
+    return ValueKind::words;
   else
-    return "id";
+    return is_list<V> ? ValueKind::elements : ValueKind::element;
 }
 
 template <class E>
 constexpr ArgumentInfo argument_info(const Argument<E>& a) {
-  ArgumentInfo info{a.name, a.required, false, {}, a.unit, a.help};
+  ArgumentInfo info{a.name, a.required, false, ValueKind::none, a.unit, a.help};
   info.ends = a.ends, info.start = a.start, info.count = a.count, info.of_list = a.unstated;
   std::visit(
       [&]<class V>(V E::*) {
@@ -174,7 +194,8 @@ constexpr ArgumentInfo argument_info(const Argument<E>& a) {
             std::is_same_v<V, WordOrCount> || std::is_same_v<V, OptionalWord> || std::is_same_v<V, Obsolete>;
         info.elsewhere = std::is_same_v<V, ElsewhereOnly>;
         info.repeats = std::is_same_v<V, std::vector<std::vector<double>>>;
-        info.value = value_text<V>();
+        info.value = value_kind<V>();
+        info.ids_of = !a.ids_of.empty() ? a.ids_of : info.value == ValueKind::body ? a.name : Reference<V>::statement;
         if (std::is_same_v<V, double> || std::is_same_v<V, std::optional<double>> ||
             std::is_same_v<V, std::optional<std::int64_t>> || std::is_same_v<V, WordOrCount>)
           info.count = 1;
@@ -211,7 +232,7 @@ inline constexpr auto argument_names = [] {
 std::optional<std::size_t> find_argument(const WrittenArgument&, std::span<const ArgumentInfo>,
                                          std::span<const std::string_view> names, ElementReader&);
 // Warns of numbers in degrees, 90D, in a unit that has no angle in it.
-void warn_of_degrees(std::string_view argument, std::string_view unit, const WrittenArgument&, ElementReader&);
+void warn_of_degrees(std::string_view argument, const Unit&, const WrittenArgument&, ElementReader&);
 // Reports arguments that are required and missing.
 bool check_required(std::span<const ArgumentInfo>, ElementReader&);
 

@@ -51,6 +51,12 @@ TEST_F(Completions, know_the_ids_of_the_model) {
   EXPECT_THAT(of("JOINT/"), ElementsAre("7"));
   EXPECT_THAT(of("LINEAR/EIGENSOL, RM=2"), ElementsAre("20", "21"));
   EXPECT_THAT(of("LINEAR/EIGENSOL, PSTATE="), ElementsAre("9"));
+  EXPECT_THAT(of("LINEAR/EIGENSOL, MODAL_RM=2"), ElementsAre("20", "21"));
+  EXPECT_THAT(of("JOINT/7, I=2"), ElementsAre("20", "21"));
+  EXPECT_THAT(of("MOTION/1, JOINT="), ElementsAre("7"));
+  EXPECT_THAT(of("PSTATE/9, VARIABLES="), ElementsAre("5"));
+  EXPECT_THAT(of("MARKER/20, PART=2"), ElementsAre("2"));
+  EXPECT_THAT(of("MATRIX/1, I="), IsEmpty());  // rows of its values, no markers
   EXPECT_THAT(of("DEACTIVATE/SF"), ElementsAre("SFORCE"));
   EXPECT_THAT(of("DEACTIVATE/SFORCE, ID="), ElementsAre("3"));
   EXPECT_THAT(completions("MARKER/2", nullptr), IsEmpty());

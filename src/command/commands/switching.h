@@ -10,9 +10,9 @@ namespace dynalin::commands {
 
 // The class is a bare word.
 inline constexpr std::array<ArgumentInfo, 3> switching_arguments = {{
-    {"class", true, true, "", "", "JOINT, SFORCE … : constraints, forces, sensors; the bare word"},
-    {"ID", false, false, "ids", "", "the elements"},
-    {"RANGE", false, false, "ids", "", "instead of ID: the first and the last id"},
+    {"class", true, true, ValueKind::none, {}, "JOINT, SFORCE … : constraints, forces, sensors; the bare word"},
+    {"ID", false, false, ValueKind::ids, {}, "the elements"},
+    {"RANGE", false, false, ValueKind::ids, {}, "instead of ID: the first and the last id"},
 }};
 
 template <bool inactive>

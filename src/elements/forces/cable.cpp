@@ -28,7 +28,11 @@ struct Cable {
   std::vector<MarkerId> markers;
 
   static constexpr std::array<Argument<Cable>, 5> arguments = {{
-      {.name = "MARKERS", .slot = &Cable::ids, .required = true, .help = "the markers that it runs along, in order"},
+      {.name = "MARKERS",
+       .slot = &Cable::ids,
+       .required = true,
+       .help = "the markers that it runs along, in order",
+       .ids_of = MarkerClass::statement},
       {.name = "K",
        .slot = &Cable::stiffness,
        .required = true,

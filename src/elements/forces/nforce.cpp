@@ -33,7 +33,11 @@ struct Nforce {
   std::vector<MarkerId> markers;
 
   static constexpr std::array<Argument<Nforce>, 8> arguments = {{
-      {.name = "IMARKERS", .slot = &Nforce::ids, .required = true, .help = "the markers that the forces act on"},
+      {.name = "IMARKERS",
+       .slot = &Nforce::ids,
+       .required = true,
+       .help = "the markers that the forces act on",
+       .ids_of = MarkerClass::statement},
       {.name = "J",
        .slot = &Nforce::j,
        .required = true,

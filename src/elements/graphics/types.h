@@ -196,7 +196,7 @@ struct OutlineOf {
   static constexpr std::string_view type = "OUTLINE";
   static constexpr std::array<Argument<OutlineOf>, 2> arguments = {{
       {.name = "OUTLINE", .slot = &OutlineOf::ids, .help = "the type: lines through the markers that it lists"},
-      {.name = "MARKERS", .slot = &OutlineOf::also, .help = "markers at the corners"},
+      {.name = "MARKERS", .slot = &OutlineOf::also, .help = "markers at the corners", .ids_of = MarkerClass::statement},
   }};
   void complete(ElementReader&);
   std::vector<MarkerId> markers() const { return points; }

@@ -57,7 +57,10 @@ struct ManyRequests {
       {.name = "JOINTS", .slot = &E::list, .help = "ALL or ids"},
       {.name = "JPRIMS", .slot = &E::list, .help = "ALL or ids"},
       {.name = "APPFORS", .slot = &E::list, .help = "applied forces: ALL or ids"},
-      {.name = "RM", .slot = &E::rm, .help = "marker along whose axes the values are; the global frame"},
+      {.name = "RM",
+       .slot = &E::rm,
+       .help = "marker along whose axes the values are; the global frame",
+       .ids_of = MarkerClass::statement},
       {.name = "COMMENT", .slot = &E::list, .help = "one line above each table"},
   }};
 
