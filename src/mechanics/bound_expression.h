@@ -71,6 +71,12 @@ class BoundExpression {
   // first of those instead.
   enum class Derivatives : std::uint8_t { first, with_rates };
   void find_undefined(const Motion&, const ElementLabel& of, UndefinedValues&, Derivatives = Derivatives::first) const;
+  // The same without kinks and without the name of who has the function.
+  struct Lack {
+    std::string reason;  // empty if nothing is wrong
+    bool in_value = true;
+  };
+  Lack undefined(const Motion&, Derivatives = Derivatives::first) const;
 
  private:
   struct ForceTerm {

@@ -67,12 +67,15 @@ std::string BoundExpression::undefined_in_gradient(const Motion& motion, const s
 void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& found,
                                      Derivatives derivatives) const {
   if (found.length()) return find_kink(motion, *found.length(), of, found);
+  if (const Lack lack = undefined(motion, derivatives); !lack.reason.empty())
+    found.add(UndefinedValue{&of, of.full_text() + ": " + lack.reason, lack.in_value});
+}
+
+BoundExpression::Lack BoundExpression::undefined(const Motion& motion, Derivatives derivatives) const {
   std::vector<double> values;
   for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
-  std::string reason = undefined_in_value(motion, values);
-  const bool in_value = !reason.empty();
-  if (!in_value) reason = undefined_in_gradient(motion, values, derivatives);
-  if (!reason.empty()) found.add(UndefinedValue{&of, of.full_text() + ": " + reason, in_value});
+  if (std::string reason = undefined_in_value(motion, values); !reason.empty()) return {std::move(reason), true};
+  return {undefined_in_gradient(motion, values, derivatives), false};
 }
 
 }  // namespace dynalin

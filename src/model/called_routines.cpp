@@ -178,13 +178,13 @@ std::vector<int> CalledRoutines::integers(const Statement& s, std::string_view n
 }
 
 // Between the parentheses of USER(…).
-std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const std::string& label) {
+std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArgument& call, const ElementId& of) {
   const SourceText& source = *call.name.source;
   const auto tokens = call.value();
   const Token& last = tokens.back();
   if (source.text().substr(last.offset, last.length) != ")") {
     diagnostics_.error("unbalanced-parenthesis", {&source, tokens[0].offset, tokens[0].length},
-                       fmt::format("the parenthesis of USER in {} is not closed behind its constants", label));
+                       fmt::format("the parenthesis of USER in {} is not closed behind its constants", of.text()));
     return std::nullopt;
   }
   if (tokens.size() <= 3) return std::vector<double>();
@@ -193,9 +193,10 @@ std::optional<std::vector<double>> CalledRoutines::constants_of(const WrittenArg
   auto values = read_reals(constants, source, diagnostics_);
   constexpr std::size_t most = RoutineConstants::most;
   if (values && values->size() > most) {
-    diagnostics_.error("wrong-count", constants.value_span(),
-                       fmt::format("USER of {} has {} constants, and takes {} at most", label, values->size(), most),
-                       "a routine reads more from an ARRAY, by its id");
+    diagnostics_.error(
+        "wrong-count", constants.value_span(),
+        fmt::format("USER of {} has {} constants, and takes {} at most", of.text(), values->size(), most),
+        "a routine reads more from an ARRAY, by its id");
     return std::nullopt;
   }
   return values;
@@ -260,7 +261,7 @@ bool CalledRoutines::keep_apart(const Statement& s, const WrittenArgument& call,
     return true;
   }
   data_->damping[what->id] =
-      std::make_shared<const DampingRoutine>(std::move(found), what->label, what->id, *what->constants);
+      std::make_shared<const DampingRoutine>(std::move(found), what->element, what->id, *what->constants);
   return true;
 }
 

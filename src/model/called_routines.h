@@ -75,7 +75,7 @@ class CalledRoutines {
   std::shared_ptr<const std::vector<int>> constant_arrays() const;
   std::shared_ptr<RoutineData> ids_of_data() const;
   std::optional<RoutineStatement> says(const Statement&, const WrittenArgument* call, const RoutineKind&);
-  std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const std::string& label);
+  std::optional<std::vector<double>> constants_of(const WrittenArgument& call, const ElementId&);
 
   FoundRoutine called_by(const Statement&, const RoutineKind&, std::string& wanted, StatePartialRoutines&);
   // "friction::slip", "slip", "friction::" or "" (the default name) in what libraries it may stand in.

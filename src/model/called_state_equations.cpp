@@ -182,7 +182,7 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
                    "SAMPLE_PERIOD= gives the time between samples as well");
   }
   if (period) {
-    auto constants = constants_of(*period, what->label);
+    auto constants = constants_of(*period, what->element);
     if (!constants) return nullptr;
     what->constants = std::make_shared<const RoutineConstants>(*constants);
     tell();

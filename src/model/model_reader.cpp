@@ -46,7 +46,7 @@ std::optional<BodyId> ModelReader::body(std::string_view statement, const Writte
   const auto b = model_.find_body(statement, id.value);
   if (!b) {
     error("unknown-body", id.at,
-          fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value));
+          fmt::format("{} refers to {}/{}, which does not exist", subject(), statement, id.value));
   }
   return b;
 }
@@ -88,7 +88,7 @@ const Expression& ModelReader::routine_at(const WrittenArgument& written) const 
 }
 
 void ModelReader::report_missing(std::string_view statement, std::string_view code, const WrittenInteger& id) {
-  report_once(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", label().text(), statement, id.value),
+  report_once(code, id.at, fmt::format("{} refers to {}/{}, which does not exist", subject(), statement, id.value),
               near_ids(statement, id.value));
 }
 

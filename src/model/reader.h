@@ -26,6 +26,10 @@ class ElementReader {
   Diagnostics& diagnostics() { return *diagnostics_; }
   const ElementLabel& label() const { return *label_; }
 
+  // How sentences about the statement begin: with its name, or with "it" where who reads them knows that already.
+  std::string subject() const { return named_already_ ? "it" : label_->text(); }
+  void name_already_said(bool is_so) { named_already_ = is_so; }
+
   // References; an id that does not exist is reported and yields nothing.
   virtual std::optional<MarkerId> marker(const WrittenInteger&, std::string_view argument) = 0;
   virtual std::optional<BodyId> body(std::string_view statement, const WrittenInteger&) = 0;
@@ -69,6 +73,7 @@ class ElementReader {
   const SourceText* source_;
   Diagnostics* diagnostics_;
   const ElementLabel* label_;
+  bool named_already_ = false;
 };
 
 }  // namespace dynalin

@@ -1,6 +1,4 @@
 // What a statement says to the routine that it calls beside constants.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
@@ -64,7 +62,7 @@ std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of
 }
 
 CurveStatement CalledRoutines::curve_of(const Statement& s, const RoutineStatement& what) const {
-  CurveStatement c{what.label, what.id, *what.constants, argument(s, "CLOSED") != nullptr, integer(s, "ORDER")};
+  CurveStatement c{what.element, what.id, *what.constants, argument(s, "CLOSED") != nullptr, integer(s, "ORDER")};
   if (argument(s, "MINPAR")) c.first = real(s, "MINPAR");
   if (argument(s, "MAXPAR")) c.last = real(s, "MAXPAR");
   return c;
@@ -73,12 +71,12 @@ CurveStatement CalledRoutines::curve_of(const Statement& s, const RoutineStateme
 std::optional<RoutineStatement> CalledRoutines::says(const Statement& s, const WrittenArgument* call,
                                                      const RoutineKind& kind) {
   RoutineStatement out;
-  out.label = fmt::format("{}/{}", s.name, s.id.value_or(0));
+  out.element = {std::string(s.name), s.id.value_or(0)};
   out.id = static_cast<int>(s.id.value_or(0));
   out.constant_arrays = constant_arrays_, out.data = data_;
   std::vector<double> constants;
   if (call) {
-    auto read = constants_of(*call, out.label);
+    auto read = constants_of(*call, out.element);
     if (!read) return std::nullopt;
     constants = std::move(*read);
   }

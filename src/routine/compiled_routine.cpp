@@ -66,7 +66,7 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
       size_of_(size_of),
       serial_(next_serial()) {
   keep_utilities();
-  what_ = fmt::format("{}, called for {}", name(), statement_.label);
+  what_ = fmt::format("{}, called for {}", name(), statement_.element.text());
   requests_.inputs = {atom_without_ids("TIME"), atom_without_ids(knows_mode() ? "MODE" : "TIME")};
   const std::vector<Atom> given_to_it = given_inputs(kind, statement_);
   requests_.inputs.insert(requests_.inputs.end(), given_to_it.begin(), given_to_it.end());
@@ -100,11 +100,10 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
       constants_.push_back(static_cast<std::int32_t>(k));
   }
   if (!given_to_it.empty() && problem_.empty() && !requests_.list.empty()) {
-    problem_ =
-        fmt::format("it asks for {}({}); the force of a {} is a function of {} that its routine gets, and of time",
-                    requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "),
-                    statement_.label.substr(0, statement_.label.find('/')),
-                    kind.arguments == RoutineArguments::field ? "the displacement and the velocity" : "the arguments");
+    problem_ = fmt::format(
+        "it asks for {}({}); the force of a {} is a function of {} that its routine gets, and of time",
+        requests_.list.front().name, fmt::join(requests_.list.front().ids, ", "), statement_.element.statement,
+        kind.arguments == RoutineArguments::field ? "the displacement and the velocity" : "the arguments");
   }
   if (kind.arguments == RoutineArguments::coupler && !found_.derivatives && problem_.empty() &&
       !(state_partials_.first && state_partials_.second)) {

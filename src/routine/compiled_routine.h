@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "dynalin/element_id.h"
 #include "expression/routine.h"
 #include "routine/differences.h"
 #include "routine/routine_context.h"
@@ -28,7 +29,7 @@ enum class RoutineDifferences : std::uint8_t { not_in_linear_models, everywhere 
 
 // What the statement says to its routine.
 struct RoutineStatement {
-  std::string label;  // "SFORCE/3"
+  ElementId element;
   int id = 0;
   std::shared_ptr<const RoutineConstants> constants{};
   ToldToRoutine told{};

@@ -61,7 +61,7 @@ struct CurveRoutine::Memory {
 CurveRoutine::CurveRoutine(FoundRoutine found, CurveStatement statement, RoutineDifferences differences)
     : found_(std::move(found)), statement_(std::move(statement)), differences_(differences), serial_(next_curve()) {
   keep_utilities();
-  what_ = fmt::format("{}, called for {}", name(), statement_.label);
+  what_ = fmt::format("{}, called for {}", name(), statement_.element.text());
 }
 
 std::string CurveRoutine::name() const {
@@ -91,7 +91,7 @@ std::string CurveRoutine::call(double u, int order, Vec3<double>& out) const {
       const sAdamsCurve curve = {s.id, npar, par, s.closed, s.order, s.first, s.last};
       reinterpret_cast<Signature*>(found_.address)(&curve, u, order, iflag, values.data());
     }
-    if (values.are_exceeded()) c.fail(fmt::format("it writes more than the three values of {}", s.label));
+    if (values.are_exceeded()) c.fail(fmt::format("it writes more than the three values of {}", s.element.text()));
   });
   const std::span<const double> own = values.own();
   if (failure.empty()) out = {own[0], own[1], own[2]};

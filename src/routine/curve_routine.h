@@ -12,7 +12,7 @@ namespace dynalin {
 
 // What a CURVE says to its routine.
 struct CurveStatement {
-  std::string label;
+  ElementId element;
   int id = 0;
   RoutineConstants parameters{};
   bool closed = false;

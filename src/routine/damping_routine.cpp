@@ -12,10 +12,10 @@
 
 namespace dynalin {
 
-DampingRoutine::DampingRoutine(FoundRoutine found, std::string label, int id, const RoutineConstants& parameters)
+DampingRoutine::DampingRoutine(FoundRoutine found, const ElementId& of, int id, const RoutineConstants& parameters)
     : found_(std::move(found)), id_(id), parameters_(parameters) {
   keep_utilities();
-  what_ = fmt::format("the routine {} of {}, called for {}", found_.name, found_.library->file(), label);
+  what_ = fmt::format("the routine {} of {}, called for {}", found_.name, found_.library->file(), of.text());
 }
 
 std::string DampingRoutine::ratios(std::span<const double> frequencies, std::span<double> out) const {

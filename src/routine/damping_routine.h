@@ -11,8 +11,8 @@ namespace dynalin {
 
 class DampingRoutine {
  public:
-  // `label` and `id` are of the FLEX_BODY, `parameters` the constants of its USER(…).
-  DampingRoutine(FoundRoutine, std::string label, int id, const RoutineConstants& parameters);
+  // `of` is the body, `parameters` are the constants of its USER(…).
+  DampingRoutine(FoundRoutine, const ElementId& of, int id, const RoutineConstants& parameters);
 
   // By the frequencies of the modes in cycles per second, ascending. Says why there are no ratios: the routine's own
   // words, or that they change with time, as the damping of a body here does not.

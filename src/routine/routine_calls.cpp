@@ -43,7 +43,7 @@ void CompiledRoutine::call(double time, int flag, int iflag, double* values) con
   std::ranges::copy(guarded.own(), values);
   if (guarded.are_exceeded()) {
     RoutineContext::current()->fail(
-        fmt::format("it writes {} values, and {} has {}", guarded.written(), statement_.label, values_));
+        fmt::format("it writes {} values, and {} has {}", guarded.written(), statement_.element.text(), values_));
   }
 }
 

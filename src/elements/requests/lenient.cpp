@@ -16,12 +16,6 @@ std::string without_quotes(std::string_view text) {
 
 }  // namespace
 
-std::string left_out(const ElementLabel& label, std::string_view why) {
-  const std::string name = label.text() + " ";
-  return label.full_text() +
-         " is left out: " + (why.starts_with(name) ? "it " + std::string(why.substr(name.size())) : std::string(why));
-}
-
 const WrittenArgument* written_argument(const ElementReader& reader, std::string_view name) {
   for (const ElementReader::Assignment& a : reader.assignments) {
     if (a.name != name) continue;

@@ -10,19 +10,20 @@
 
 namespace dynalin {
 
-// "REQUEST/3 is left out: it refers to MARKER/9, which does not exist".
-std::string left_out(const ElementLabel&, std::string_view why);
-
-// Runs `read`; what it reports as errors is said as warnings of the element that is left out.
+// Runs `read`; what it reports as errors is said as warnings of the element that is left out: "REQUEST/3 is left out:
+// it refers to MARKER/9, which does not exist".
 template <class Read>
 bool leniently(ElementReader& reader, const Read& read) {
   Diagnostics& all = reader.diagnostics();
   Diagnostics before = std::exchange(all, {});
+  reader.name_already_said(true);
   const bool ok = read();
+  reader.name_already_said(false);
   Diagnostics found = std::exchange(all, std::move(before));
   for (const Diagnostic& d : found.items()) {
     if (d.severity == Severity::error)
-      all.warning("request-left-out", d.at, left_out(reader.label(), d.message), d.hint).notes = d.notes;
+      all.warning("request-left-out", d.at, reader.label().full_text() + " is left out: " + d.message, d.hint).notes =
+          d.notes;
     else
       all.warning(d.code, d.at, d.message, d.hint).notes = d.notes;
   }

@@ -145,11 +145,9 @@ std::string RequestKernel::undefined_value(const Motion& motion, std::size_t req
     if (std::isfinite(values[k])) continue;
     const std::string text = fmt::format("{} of {} has no finite value at time {:g}", of.info->components()[k].name,
                                          of.info->request.text(), motion.time);
-    UndefinedValues found;
-    if (const auto* functions = std::get_if<Functions>(&of.values))
-      (*functions)[k].find_undefined(motion, *of.label, found);
-    // A reason begins with the statement.
-    return found.values().empty() ? text : text + found.values().front().reason.substr(of.label->full_text().size());
+    const auto* functions = std::get_if<Functions>(&of.values);
+    const std::string reason = functions ? (*functions)[k].undefined(motion).reason : std::string();
+    return reason.empty() ? text : text + ": " + reason;
   }
   return {};
 }
