@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "model/kind_finder.h"
@@ -12,12 +13,12 @@ namespace dynalin {
 namespace {
 
 constexpr std::size_t no_argument = KindFinder::no_argument;
-constexpr ElementLabel label_of_global_frame = {"MARKER", 0, "", {}};
+constexpr ElementLabel label_of_global_frame = {MarkerClass::statement, 0, "", {}};
 
-bool is_ground(const Statement& s) {
-  static constexpr std::array<std::string_view, 1> ground = {"GROUND"};
+bool is_ground(const Kind& kind, const Statement& s) {
+  if (kind.ground_word.empty()) return false;
   return std::any_of(s.arguments.begin(), s.arguments.end(), [&](const WrittenArgument& w) {
-    return !w.has_value && find_keyword(w.name.text(), ground).has_value();
+    return !w.has_value && find_keyword(w.name.text(), std::span(&kind.ground_word, 1)).has_value();
   });
 }
 
@@ -105,11 +106,15 @@ class Builder {
   // First pass: every id becomes known, so statements may refer to later ones.
   void register_statements() {
     const auto& statements = model_->dataset->statements;
-    const auto count = [&](std::string_view name) {
-      return static_cast<std::size_t>(std::ranges::count(statements, name, &Statement::name));
-    };
-    model_->markers.reserve(1 + count("MARKER"));
-    model_->bodies.reserve(1 + count("PART") + count("POINT_MASS") + count("FLEX_BODY"));
+    std::size_t markers = 0, bodies = 0;
+    for (const Statement& s : statements) {
+      const auto& kinds = finder_.kinds_of(s.name);
+      if (kinds.empty()) continue;
+      markers += kinds.front()->role == Kind::Role::marker ? 1 : 0;
+      bodies += kinds.front()->role == Kind::Role::body ? 1 : 0;
+    }
+    model_->markers.reserve(1 + markers);
+    model_->bodies.reserve(1 + bodies);
     // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
     for (const Kind* kind : catalogue_) set_of(*kind, true);
     find_kinds();
@@ -174,7 +179,7 @@ class Builder {
       return true;
     }
     if (kind.role == Kind::Role::body) {
-      const bool is_ground_part = kind.statement == "PART" && is_ground(s);
+      const bool is_ground_part = is_ground(kind, s);
       const BodyId b = is_ground_part ? ground_body : BodyId{static_cast<std::int32_t>(model_->bodies.size())};
       auto& table = model_->body_ids[std::string(kind.statement)];
       const auto [known, fresh] = table.emplace(*s.id, b);
@@ -189,7 +194,7 @@ class Builder {
       } else {
         Body body;
         body.label = label;
-        body.kind = kind.statement == "POINT_MASS" ? BodyKind::point_mass : BodyKind::part;
+        body.kind = kind.is_point ? BodyKind::point_mass : BodyKind::part;
         model_->bodies.push_back(std::move(body));
       }
       preceding = b;

@@ -64,8 +64,12 @@ CalledRoutines::CalledRoutines(const Dataset& dataset, Catalogue catalogue, cons
                                Diagnostics& diagnostics)
     : dataset_(dataset),
       catalogue_(catalogue),
+      finder_(catalogue),
       differences_(options.differences ? RoutineDifferences::everywhere : RoutineDifferences::not_in_linear_models),
       diagnostics_(diagnostics) {
+  for (const Kind* kind : catalogue) {
+    if (kind->told_beforehand || !kind->ground_word.empty()) told_.emplace(kind->statement, kind);
+  }
   if (!options.libraries.empty()) constant_arrays_ = constant_arrays(), data_ = ids_of_data();
   for (const std::string& file : options.libraries) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
@@ -145,12 +149,16 @@ int CalledRoutines::integer(const Statement& s, std::string_view name) const {
   return value ? static_cast<int>(value->value) : 0;
 }
 
-double CalledRoutines::real(const Statement& s, std::string_view name, std::size_t which) const {
+std::vector<double> CalledRoutines::reals(const Statement& s, std::string_view name) const {
   const WrittenArgument* w = argument(s, name);
-  if (!w || !w->has_value || w->damaged) return 0;
+  if (!w || !w->has_value || w->damaged) return {};
   Diagnostics ignored;
-  const auto list = read_reals(*w, *w->name.source, ignored);
-  return list && which < list->size() ? (*list)[which] : 0;
+  return read_reals(*w, *w->name.source, ignored).value_or(std::vector<double>());
+}
+
+double CalledRoutines::real(const Statement& s, std::string_view name) const {
+  const std::vector<double> all = reals(s, name);
+  return all.empty() ? 0 : all.front();
 }
 
 std::string CalledRoutines::text(const Statement& s, std::string_view name) const {

@@ -2,11 +2,14 @@
 // its values are.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "model/kind_finder.h"
 #include "model/routine_options.h"
 #include "routine/compiled_routine.h"
 #include "routine/curve_routine.h"
@@ -69,6 +72,12 @@ class CalledRoutines {
   std::vector<Library> libraries_named(std::string_view name);
   int integer(const Statement&, std::string_view name) const;
   std::vector<int> integers(const Statement&, std::string_view name) const;
+  // Those of the dataset by statement and id; null where there is none.
+  const Statement* statement(std::string_view name, std::int64_t id) const;
+  // The kind of such statements, where it says something of them before they are read.
+  const Kind* kind_told_of(std::string_view statement) const;
+  template <class Tell>
+  void for_each_told(const Tell&) const;
   std::optional<std::size_t> size_of_list(std::string_view statement, std::int32_t id) const;
   // Null where there is no such flexible body, or something is wrong with one.
   const RoutineData::Modes* modes_of(std::int64_t flex_body) const;
@@ -82,7 +91,8 @@ class CalledRoutines {
   FoundRoutine find_named(std::string_view written, std::span<const std::string_view> default_names);
   StatePartialRoutines routines_beside(std::string& text);
   class Words;
-  double real(const Statement&, std::string_view name, std::size_t which = 0) const;
+  std::vector<double> reals(const Statement&, std::string_view name) const;
+  double real(const Statement&, std::string_view name) const;  // the first; 0 where there is none
   std::string text(const Statement&, std::string_view name) const;
   std::shared_ptr<const RoutineStatement::ModalLoad> modal_load_of(const Statement&, bool scaled) const;
   CurveStatement curve_of(const Statement&, const RoutineStatement&) const;
@@ -94,8 +104,18 @@ class CalledRoutines {
   std::vector<Expression> functions_of(const std::shared_ptr<const CompiledRoutine>&, std::size_t first,
                                        std::size_t count, const Span& at) const;
 
+  // What is looked up by statement and id, made when something is.
+  struct Index {
+    using Key = std::pair<std::string_view, std::int64_t>;
+    std::map<Key, const Statement*> statements;
+    std::map<Key, std::optional<std::size_t>> filled;  // lists that other statements give, and how long they are
+  };
+  const Index& index() const;
+
   const Dataset& dataset_;
   Catalogue catalogue_;
+  KindFinder finder_;
+  std::map<std::string_view, const Kind*> told_;
   RoutineDifferences differences_;
   Diagnostics& diagnostics_;
   std::vector<Library> libraries_;
@@ -103,6 +123,7 @@ class CalledRoutines {
   std::vector<std::string> folders_;
   std::shared_ptr<const std::vector<int>> constant_arrays_;
   std::shared_ptr<RoutineData> data_;
+  mutable std::unique_ptr<Index> index_;
   mutable std::shared_ptr<RoutineData> bodies_;  // what is known of modes beforehand, once that was asked for
 };
 

@@ -73,7 +73,7 @@ sAdamsGSE CalledRoutines::says_of_states(const Statement& s, const RoutineConsta
   gse.ND = std::max(integer(s, "ND"), 0);
   gse.U = integer(s, "U"), gse.Y = integer(s, "Y"), gse.X = integer(s, "X"), gse.IC = integer(s, "IC");
   gse.XD = integer(s, "XD"), gse.ICD = integer(s, "ICD");
-  gse.NI = gse.U == 0 ? 0 : static_cast<int>(size_of_list("ARRAY", gse.U).value_or(0));
+  gse.NI = gse.U == 0 ? 0 : static_cast<int>(size_of_list(ArrayClass::statement, gse.U).value_or(0));
   gse.STATIC_HOLD = argument(s, "STATIC_HOLD") != nullptr, gse.IMPLICIT = argument(s, "IMPLICIT") != nullptr;
   gse.STATICS_ONLY = argument(s, "STATICS_ONLY") != nullptr;
   gse.SAMPLE_OFFSET = real(s, "SAMPLE_OFFSET");
@@ -102,10 +102,7 @@ std::shared_ptr<const StateEquations> CalledRoutines::find_state_equations(const
   tell();
   const sAdamsGSE gse = *what->gse;
   // Whoever reads the statement says that these are too many, or that their ARRAYs are missing.
-  const auto exists = [&](int array) {
-    return std::any_of(dataset_.statements.begin(), dataset_.statements.end(),
-                       [&](const Statement& a) { return a.name == "ARRAY" && a.id == array; });
-  };
+  const auto exists = [&](int array) { return statement(ArrayClass::statement, array) != nullptr; };
   const bool placed = (gse.NS == 0 || exists(gse.X)) && (gse.ND == 0 || exists(gse.XD)) &&
                       (argument(s, "U") == nullptr || exists(gse.U));
   if (!placed || std::max({gse.NS, gse.NO, gse.ND}) > most_numbers) return nullptr;

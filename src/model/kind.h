@@ -16,6 +16,7 @@
 namespace dynalin {
 
 struct Model;
+struct ToldBeforehand;
 class ElementReader;
 
 class ElementSet;
@@ -51,6 +52,10 @@ struct Kind {
   Gives gives = Gives::forces;
   std::string_view example{};               // of a command that defines arguments anew, "PART/2, MASS=3.5"
   std::span<const RoutineKind> routines{};  // that its arguments call by USER(…)
+  std::string_view ground_word{};           // of a body: the bare word by which it is the ground
+  bool is_point = false;                    // of a body: it never turns
+  bool slides = false;                      // of a joint: what it moves by is a length
+  const ToldBeforehand* told_beforehand{};  // what routines may know of its statements (told_beforehand.h)
 
   constexpr Kind deactivatable() const {
     Kind kind = *this;
@@ -75,6 +80,26 @@ struct Kind {
   constexpr Kind calling(std::span<const RoutineKind> what) const {
     Kind kind = *this;
     kind.routines = what;
+    return kind;
+  }
+  constexpr Kind grounded_by(std::string_view word) const {
+    Kind kind = *this;
+    kind.ground_word = word;
+    return kind;
+  }
+  constexpr Kind without_rotation() const {
+    Kind kind = *this;
+    kind.is_point = true;
+    return kind;
+  }
+  constexpr Kind sliding() const {
+    Kind kind = *this;
+    kind.slides = true;
+    return kind;
+  }
+  constexpr Kind telling(const ToldBeforehand& what) const {
+    Kind kind = *this;
+    kind.told_beforehand = &what;
     return kind;
   }
   constexpr Kind giving(Gives what) const {

@@ -1,56 +1,34 @@
 // What a statement says to the routine that it calls beside constants.
-#include <algorithm>
-#include <array>
-#include <string>
-
-#include "model/called_routines.h"
-#include "routine/statement_words.h"
+#include "model/called_words.h"
 
 namespace dynalin {
 
-class CalledRoutines::Words final : public StatementWords {
- public:
-  Words(const CalledRoutines& routines, const Statement& s, const RoutineConstants& constants)
-      : routines_(routines), statement_(s), constants_(constants) {}
+std::string_view CalledRoutines::Words::written(std::string_view argument) const {
+  const WrittenArgument* w = routines_.argument(statement_, argument);
+  return w && w->has_value ? w->value_span().text() : std::string_view();
+}
 
-  int id() const override { return static_cast<int>(statement_.id.value_or(0)); }
-  const RoutineConstants& constants() const override { return constants_; }
-  bool has(std::string_view argument) const override { return routines_.argument(statement_, argument) != nullptr; }
-  int integer(std::string_view argument) const override { return routines_.integer(statement_, argument); }
-  std::vector<int> integers(std::string_view argument) const override {
-    return routines_.integers(statement_, argument);
+std::optional<std::size_t> CalledRoutines::Words::word_among(std::span<const std::string_view> words) const {
+  for (const WrittenArgument& w : statement_.arguments) {
+    if (w.has_value) continue;
+    if (const auto k = find_keyword(w.name.text(), words)) return k;
   }
-  double real(std::string_view argument, std::size_t which) const override {
-    return routines_.real(statement_, argument, which);
-  }
-  std::string text(std::string_view argument) const override { return routines_.text(statement_, argument); }
-  std::string_view written(std::string_view argument) const override {
-    const WrittenArgument* w = routines_.argument(statement_, argument);
-    return w && w->has_value ? w->value_span().text() : std::string_view();
-  }
-  std::optional<std::size_t> word_among(std::span<const std::string_view> words) const override {
-    return word_of(statement_, words);
-  }
-  bool slides(int joint) const override {
-    static constexpr std::array<std::string_view, 1> way = {"TRANSLATIONAL"};
-    return std::ranges::any_of(routines_.dataset_.statements, [&](const Statement& j) {
-      return j.name == "JOINT" && j.id == joint && word_of(j, way).has_value();
-    });
-  }
+  return std::nullopt;
+}
 
- private:
-  static std::optional<std::size_t> word_of(const Statement& s, std::span<const std::string_view> words) {
-    for (const WrittenArgument& w : s.arguments) {
-      if (w.has_value) continue;
-      if (const auto k = find_keyword(w.name.text(), words)) return k;
-    }
-    return std::nullopt;
-  }
+int CalledRoutines::Words::integer_of(std::string_view statement, int id, std::string_view argument) const {
+  const Statement* s = routines_.statement(statement, id);
+  return s ? routines_.integer(*s, argument) : 0;
+}
 
-  const CalledRoutines& routines_;
-  const Statement& statement_;
-  const RoutineConstants& constants_;
-};
+bool CalledRoutines::Words::slides(int joint) const {
+  const Statement* s = routines_.statement(JointClass::statement, joint);
+  if (!s) return false;
+  Diagnostics ignored;
+  std::size_t which = 0;
+  const Kind* kind = routines_.finder_.find(*s, which, ignored);
+  return kind && kind->slides;
+}
 
 // Null where the modes are not known.
 std::shared_ptr<const RoutineStatement::ModalLoad> CalledRoutines::modal_load_of(const Statement& s,

@@ -1,38 +1,49 @@
 // What routines can be told of a model before it is read: how long its lists are, which of them are constants, and
-// which data it has. How many modes flexible bodies have, and their modal loads, takes reading these by themselves,
-// once, where a routine needs them.
-#include <algorithm>
-#include <array>
+// which data it has, as the elements say (told_beforehand.h). How many modes flexible bodies have, and their modal
+// loads, takes reading these by themselves, once, where a routine needs them.
+#include "model/told_beforehand.h"
 
-#include "model/called_routines.h"
+#include <algorithm>
+
+#include "model/called_words.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
 
 namespace {
 
-// What a flexible body is made of, without arguments that refer to anything else. Damping changes no mode, and a
-// routine may give it.
-struct Needed {
-  std::string_view statement;
-  std::array<std::string_view, 3> left_out;
-};
-constexpr std::array<Needed, 3> needed = {{{"UNITS", {}}, {"MATRIX", {}}, {"FLEX_BODY", {"CRATIO", "VM", "WM"}}}};
+const RoutineConstants no_constants;
 
 }  // namespace
+
+const Kind* CalledRoutines::kind_told_of(std::string_view statement) const {
+  const auto found = told_.find(statement);
+  return found == told_.end() ? nullptr : found->second;
+}
+
+template <class Tell>
+void CalledRoutines::for_each_told(const Tell& tell) const {
+  for (const Statement& s : dataset_.statements) {
+    const Kind* kind = kind_told_of(s.name);
+    if (kind && kind->told_beforehand) tell(s, *kind->told_beforehand, Words(*this, s, no_constants));
+  }
+}
 
 const RoutineData::Modes* CalledRoutines::modes_of(std::int64_t flex_body) const {
   if (!bodies_) {
     auto bodies = std::make_shared<Dataset>();
     bodies->source = dataset_.source, bodies->title = dataset_.title;
     for (const Statement& s : dataset_.statements) {
-      const auto part = std::ranges::find(needed, s.name, &Needed::statement);
-      const bool ground = s.name == "PART" && argument(s, "GROUND") != nullptr;
-      if (part == needed.end() && !ground) continue;
+      const Kind* kind = kind_told_of(s.name);
+      if (!kind) continue;
+      const std::string_view ground_word = kind->ground_word;
+      const bool ground = !ground_word.empty() && argument(s, ground_word) != nullptr;
+      const ToldBeforehand* part = kind->told_beforehand;
+      if (!ground && !(part && part->makes_modes)) continue;
       std::erase_if(bodies->statements.emplace_back(s).arguments, [&](const WrittenArgument& w) {
         const std::string_view name = full_name(s, w);
-        return ground ? name != "GROUND"
-                      : !name.empty() && std::ranges::find(part->left_out, name) != part->left_out.end();
+        return ground ? name != ground_word
+                      : !name.empty() && std::ranges::find(part->not_for_modes, name) != part->not_for_modes.end();
       });
     }
     bodies_ = std::make_shared<RoutineData>();
@@ -46,79 +57,59 @@ const RoutineData::Modes* CalledRoutines::modes_of(std::int64_t flex_body) const
   return found == bodies_->flexible_bodies.end() ? nullptr : &found->second;
 }
 
-std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view statement, std::int32_t id) const {
-  const auto find = [&](std::string_view name, std::int64_t of) -> const Statement* {
-    const auto found = std::find_if(dataset_.statements.begin(), dataset_.statements.end(),
-                                    [&](const Statement& s) { return s.name == name && s.id == of; });
-    return found == dataset_.statements.end() ? nullptr : &*found;
-  };
-  if (statement == "FLEX_BODY") {
+const CalledRoutines::Index& CalledRoutines::index() const {
+  if (index_) return *index_;
+  index_ = std::make_unique<Index>();
+  for (const Statement& s : dataset_.statements) {
+    if (s.id) index_->statements.emplace(std::pair(std::string_view(s.name), *s.id), &s);
+  }
+  // What gives lists may look other statements up.
+  for_each_told([this](const Statement&, const ToldBeforehand& told, const Words& words) {
+    if (!told.fills) return;
+    for (const FilledList& f : told.fills(words))
+      index_->filled.emplace(std::pair(f.statement, std::int64_t{f.id}), f.size);
+  });
+  return *index_;
+}
+
+const Statement* CalledRoutines::statement(std::string_view name, std::int64_t id) const {
+  const auto& all = index().statements;
+  const auto found = all.find(std::pair(name, id));
+  return found == all.end() ? nullptr : found->second;
+}
+
+std::optional<std::size_t> CalledRoutines::size_of_list(std::string_view name, std::int32_t id) const {
+  const Statement* s = statement(name, id);
+  const Kind* kind = s ? kind_told_of(name) : nullptr;
+  const ToldBeforehand* told = kind ? kind->told_beforehand : nullptr;
+  if (!told) return std::nullopt;
+  if (told->has_modes) {
     const RoutineData::Modes* modes = modes_of(id);
     return modes ? std::optional(modes->number.size()) : std::nullopt;
   }
-  const Statement* s = find(statement, id);
-  if (!s) return std::nullopt;
-  Diagnostics ignored;
-  if (const auto* w = argument(*s, "VARIABLES"); w && !w->damaged) {
-    const auto list = read_integers(*w, *w->name.source, ignored);
-    return list ? std::optional(list->size()) : std::nullopt;
-  }
-  if (const auto* w = argument(*s, "NUMBERS"); w && !w->damaged) {
-    const auto list = read_reals(*w, *w->name.source, ignored);
-    return list ? std::optional(list->size()) : std::nullopt;
-  }
-  if (statement == "GSE") return static_cast<std::size_t>(std::max(integer(*s, "NS"), 0));
-  // Of states or outputs: the element that has them says how many.
-  for (const Statement& e : dataset_.statements) {
-    if (e.name != "GSE" && e.name != "LSE" && e.name != "TFSISO") continue;
-    if (integer(e, "X") == id) {
-      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NS"), 0));
-      if (e.name == "TFSISO") {
-        const auto* w = argument(e, "DENOMINATOR");
-        const auto list = w && !w->damaged ? read_reals(*w, *w->name.source, ignored) : std::nullopt;
-        return list && !list->empty() ? std::optional(list->size() - 1) : std::nullopt;
-      }
-      const Statement* a = find("MATRIX", integer(e, "A"));
-      if (a && integer(*a, "ROWS") > 0) return static_cast<std::size_t>(integer(*a, "ROWS"));
-    }
-    if (e.name == "GSE" && integer(e, "XD") == id) return static_cast<std::size_t>(std::max(integer(e, "ND"), 0));
-    if (integer(e, "Y") == id) {
-      if (e.name == "GSE") return static_cast<std::size_t>(std::max(integer(e, "NO"), 0));
-      if (e.name == "TFSISO") return std::size_t{1};
-      const Statement* c = find("MATRIX", integer(e, integer(e, "C") > 0 ? "C" : "D"));
-      if (c && integer(*c, "ROWS") > 0) return static_cast<std::size_t>(integer(*c, "ROWS"));
-    }
-  }
-  if (const int size = integer(*s, "SIZE"); size > 0) return static_cast<std::size_t>(size);
-  return std::nullopt;
+  const auto filled = index().filled.find(std::pair(name, std::int64_t{id}));
+  if (filled != index().filled.end()) return filled->second;
+  return told->size ? told->size(Words(*this, *s, no_constants)) : std::nullopt;
 }
 
 std::shared_ptr<const std::vector<int>> CalledRoutines::constant_arrays() const {
   auto ids = std::make_shared<std::vector<int>>();
-  for (const Statement& s : dataset_.statements) {
-    if (s.name == "GSE") ids->push_back(integer(s, "XD"));
-    if (s.name == "ARRAY" && argument(s, "NUMBERS")) ids->push_back(static_cast<int>(s.id.value_or(0)));
-  }
+  for_each_told([&](const Statement&, const ToldBeforehand& told, const Words& words) {
+    if (told.is_constant && told.is_constant(words)) ids->push_back(words.id());
+    if (!told.fills) return;
+    for (const FilledList& f : told.fills(words)) {
+      if (f.is_constant) ids->push_back(f.id);
+    }
+  });
   std::ranges::sort(*ids);
   return ids;
 }
 
 std::shared_ptr<RoutineData> CalledRoutines::ids_of_data() const {
   auto data = std::make_shared<RoutineData>();
-  for (const Statement& s : dataset_.statements) {
-    const int id = static_cast<int>(s.id.value_or(0));
-    if (s.name == "SPLINE") data->splines[id];
-    if (s.name == "CURVE") data->curves[id];
-    if (s.name == "MATRIX") data->matrices[id];
-    if (s.name == "FLEX_BODY") data->flexible_bodies[id];
-    if (s.name != "STRING") continue;
-    // Routines look at texts when they are asked what they read.
-    std::string& text = data->strings[id];
-    const WrittenArgument* w = argument(s, "STRING");
-    if (!w || !w->has_value || w->damaged || w->value().empty()) continue;
-    Diagnostics ignored;
-    text = read_text(*w, *w->name.source, ignored).value_or("").substr(0, RoutineData::longest_text);
-  }
+  for_each_told([&](const Statement&, const ToldBeforehand& told, const Words& words) {
+    if (told.data) told.data(words, *data);
+  });
   return data;
 }
 

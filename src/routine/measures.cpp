@@ -35,11 +35,12 @@ constexpr std::array<MarkerList, 16> marker_lists = {{
     {"DC", {"UVX.X", "UVY.X", "UVZ.X", "UVX.Y", "UVY.Y", "UVZ.Y", "UVX.Z", "UVY.Z", "UVZ.Z"}, 9, 2, 0},
 }};
 
+// Entry by entry of what a function reads.
 struct ElementList {
-  std::string_view name, statement, function;
+  std::string_view name, function;
 };
 constexpr std::array<ElementList, 3> element_lists = {
-    {{"ARRAY", "ARRAY", "ARYVAL"}, {"PINPUT", "PINPUT", "PINVAL"}, {"POUTPUT", "POUTPUT", "POUVAL"}}};
+    {{"ARRAY", "ARYVAL"}, {"PINPUT", "PINVAL"}, {"POUTPUT", "POUVAL"}}};
 
 // x′ of a GSE, which no expression of the language reads.
 constexpr AtomFunction rate_of_state_equations = {.name = "GSE_XDOT",
@@ -107,7 +108,7 @@ std::optional<std::vector<Atom>> measure_list(std::string_view name, std::span<c
   }
   for (const ElementList& e : element_lists) {
     if (e.name != wanted) continue;
-    const auto count = ids.size() == 1 ? size_of(e.statement, ids[0]) : std::nullopt;
+    const auto count = ids.size() == 1 ? size_of(find_atom_function(e.function)->statement, ids[0]) : std::nullopt;
     if (!count) return std::nullopt;
     for (std::size_t n = 1; n <= *count; ++n)
       list.push_back(*atom_of(e.function, std::array{ids[0], static_cast<int>(n)}));

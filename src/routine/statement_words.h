@@ -26,11 +26,14 @@ class StatementWords {
   virtual int integer(std::string_view argument) const = 0;  // 0 where there is none
   virtual std::vector<int> integers(std::string_view argument) const = 0;
   virtual double real(std::string_view argument, std::size_t which = 0) const = 0;  // of a list; 0 where there is none
+  virtual std::vector<double> reals(std::string_view argument) const = 0;
   virtual std::string text(std::string_view argument) const = 0;
   virtual std::string_view written(std::string_view argument) const = 0;  // the value as it stands there
   // Which of these stands in the statement for itself, nothing if none does.
   virtual std::optional<std::size_t> word_among(std::span<const std::string_view>) const = 0;
-  virtual bool slides(int joint) const = 0;  // whether it is TRANSLATIONAL
+  // Of another statement; 0 where there is none.
+  virtual int integer_of(std::string_view statement, int id, std::string_view argument) const = 0;
+  virtual bool slides(int joint) const = 0;  // whether what its joint moves by is a length
 };
 
 struct ToldToRoutine {

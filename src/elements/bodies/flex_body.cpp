@@ -5,7 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <string_view>
 
 #include "dataset/characters.h"
 #include "elements/bodies/flex_body_file.h"
@@ -18,6 +20,7 @@
 #include "elements/settings/time_unit.h"
 #include "flexible/modal_matrices.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/routine_data.h"
 #include "routine/statement_words.h"
 
@@ -332,6 +335,18 @@ std::vector<const ModalBody*> flexible_by_body(const Model& model) {
   return list;
 }
 
+namespace {
+
+// A routine may give the damping, and nothing moves yet.
+constexpr std::array<std::string_view, 3> not_for_modes = {"CRATIO", "VM", "WM"};
+constexpr ToldBeforehand told_of_flex_body = {
+    .data = [](const StatementWords& s, RoutineData& data) { data.flexible_bodies[s.id()]; },
+    .has_modes = true,
+    .makes_modes = true,
+    .not_for_modes = not_for_modes};
+
+}  // namespace
+
 extern constinit const Kind flex_body =
     Kind{"FLEX_BODY",
          "",
@@ -340,6 +355,7 @@ extern constinit const Kind flex_body =
          detail::argument_infos<FlexBody>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<FlexBodySet>(kind); }}
         .calling(routines_of_flex_body)
+        .telling(told_of_flex_body)
         .with_example("FLEX_BODY/2, CRATIO=0.02");
 
 }  // namespace dynalin

@@ -303,14 +303,14 @@ std::vector<PartCentre> part_centres(const Model& model) {
   return list;
 }
 
-extern constinit const Kind part = Kind{
-    "PART",
-    "",
-    "A rigid body, or the ground.",
-    Kind::Role::body,
-    detail::argument_infos<Part>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<PartSet>(kind);
-    }}.with_example("PART/2, MASS=3.5");
+extern constinit const Kind part =
+    Kind{"PART",
+         "",
+         "A rigid body, or the ground.",
+         Kind::Role::body,
+         detail::argument_infos<Part>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PartSet>(kind); }}
+        .grounded_by("GROUND")
+        .with_example("PART/2, MASS=3.5");
 
 }  // namespace dynalin

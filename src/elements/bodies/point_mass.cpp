@@ -114,14 +114,14 @@ class PointMassSet final : public TypedSet<PointMass> {
 
 }  // namespace
 
-extern constinit const Kind point_mass = Kind{
-    "POINT_MASS",
-    "",
-    "A mass that translates and never turns.",
-    Kind::Role::body,
-    detail::argument_infos<PointMass>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<PointMassSet>(kind);
-    }}.with_example("POINT_MASS/3, MASS=2");
+extern constinit const Kind point_mass =
+    Kind{"POINT_MASS",
+         "",
+         "A mass that translates and never turns.",
+         Kind::Role::body,
+         detail::argument_infos<PointMass>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PointMassSet>(kind); }}
+        .without_rotation()
+        .with_example("POINT_MASS/3, MASS=2");
 
 }  // namespace dynalin

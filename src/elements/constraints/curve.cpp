@@ -18,6 +18,7 @@
 #include "elements/controls/matrix.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/curve_routine.h"
 #include "routine/routine_data.h"
 #include "routine/statement_words.h"
@@ -243,14 +244,21 @@ constexpr std::array<RoutineKind, 1> routines_of_curve = {
 
 }  // namespace
 
-extern constinit const Kind curve = Kind{
-    "CURVE",
-    "",
-    "A curve in space, through points or along control points.",
-    Kind::Role::element,
-    detail::argument_infos<WrittenCurve>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<CurveSet>(kind);
-    }}.calling(routines_of_curve);
+namespace {
+
+constexpr ToldBeforehand told_of_curve = {
+    .data = [](const StatementWords& s, RoutineData& data) { data.curves[s.id()]; }};
+
+}  // namespace
+
+extern constinit const Kind curve =
+    Kind{"CURVE",
+         "",
+         "A curve in space, through points or along control points.",
+         Kind::Role::element,
+         detail::argument_infos<WrittenCurve>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<CurveSet>(kind); }}
+        .calling(routines_of_curve)
+        .telling(told_of_curve);
 
 }  // namespace dynalin

@@ -25,6 +25,6 @@ struct Translational {
 
 }  // namespace
 
-extern constinit const Kind translational = joint<Translational>();
+extern constinit const Kind translational = joint<Translational>().sliding();
 
 }  // namespace dynalin

@@ -6,7 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "model/model.h"
+#include "model/told_beforehand.h"
 
 namespace dynalin {
 
@@ -85,14 +89,27 @@ const Array* input_array(const Model& model, ArrayRef ref, const ElementLabel& o
   return nullptr;
 }
 
-extern constinit const Kind array = Kind{
-    "ARRAY",
-    "",
-    "A vector of constants, inputs, states or outputs.",
-    Kind::Role::element,
-    detail::argument_infos<Array>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<ArraySet>(kind);
-    }}.with_example("ARRAY/1, NUMBERS=1,2");
+namespace {
+
+// Of states and outputs the element that has them says more.
+std::optional<std::size_t> size_of_array(const StatementWords& s) {
+  if (s.has("VARIABLES")) return known_size(s.integers("VARIABLES").size());
+  if (s.has("NUMBERS")) return known_size(s.reals("NUMBERS").size());
+  return known_size(static_cast<std::size_t>(std::max(s.integer("SIZE"), 0)));
+}
+constexpr ToldBeforehand told_of_array = {.size = size_of_array,
+                                          .is_constant = [](const StatementWords& s) { return s.has("NUMBERS"); }};
+
+}  // namespace
+
+extern constinit const Kind array =
+    Kind{"ARRAY",
+         "",
+         "A vector of constants, inputs, states or outputs.",
+         Kind::Role::element,
+         detail::argument_infos<Array>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<ArraySet>(kind); }}
+        .telling(told_of_array)
+        .with_example("ARRAY/1, NUMBERS=1,2");
 
 }  // namespace dynalin

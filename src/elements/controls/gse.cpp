@@ -12,13 +12,16 @@
 // last static solution gave them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "elements/controls/array.h"
 #include "elements/families/state_equations.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/state_equations.h"
 #include "routine/statement_words.h"
 
@@ -181,6 +184,21 @@ constexpr std::array<RoutineKind, 5> gse_routines = {
 
 }  // namespace
 
+namespace {
+
+std::optional<std::size_t> count_in_gse(const StatementWords& s, std::string_view argument) {
+  return static_cast<std::size_t>(std::max(s.integer(argument), 0));
+}
+std::vector<FilledList> filled_by_gse(const StatementWords& s) {
+  return {{ArrayClass::statement, s.integer("X"), count_in_gse(s, "NS")},
+          {ArrayClass::statement, s.integer("XD"), count_in_gse(s, "ND"), true},
+          {ArrayClass::statement, s.integer("Y"), count_in_gse(s, "NO")}};
+}
+constexpr ToldBeforehand told_of_gse = {.size = [](const StatementWords& s) { return count_in_gse(s, "NS"); },
+                                        .fills = filled_by_gse};
+
+}  // namespace
+
 extern constinit const Kind gse =
     Kind{"GSE",
          "",
@@ -189,6 +207,7 @@ extern constinit const Kind gse =
          detail::argument_infos<Gse>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GseSet>(kind); }}
         .calling(gse_routines)
+        .telling(told_of_gse)
         .with_example("GSE/1, STATIC_HOLD");
 
 }  // namespace dynalin

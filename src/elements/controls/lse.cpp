@@ -4,11 +4,15 @@
 // initial values, zero by default.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "elements/controls/array.h"
 #include "elements/controls/matrix.h"
 #include "elements/families/linear_states.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 
 namespace dynalin {
 
@@ -118,12 +122,31 @@ class LseSet final : public TypedSet<Lse> {
 
 }  // namespace
 
-extern constinit const Kind lse = {
+namespace {
+
+// As many as the matrices have rows, where that is written.
+std::vector<FilledList> filled_by_lse(const StatementWords& s) {
+  std::vector<FilledList> lists;
+  const auto take = [&](std::string_view array, std::string_view matrix) {
+    const auto rows = known_size(
+        static_cast<std::size_t>(std::max(s.integer_of(MatrixClass::statement, s.integer(matrix), "ROWS"), 0)));
+    if (rows) lists.push_back({ArrayClass::statement, s.integer(array), rows});
+  };
+  take("X", "A"), take("Y", s.integer("C") > 0 ? "C" : "D");
+  return lists;
+}
+constexpr ToldBeforehand told_of_lse = {.fills = filled_by_lse};
+
+}  // namespace
+
+extern constinit const Kind lse = Kind{
     "LSE",
     "",
     "Linear state equations.",
     Kind::Role::element,
     detail::argument_infos<Lse>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<LseSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<LseSet>(kind);
+    }}.telling(told_of_lse);
 
 }  // namespace dynalin

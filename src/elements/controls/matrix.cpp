@@ -15,6 +15,7 @@
 #include "dataset/matrix_file.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
@@ -200,12 +201,21 @@ Span place_of(const Matrix& m, std::size_t row, std::size_t column) {
   return m.values_at;
 }
 
-extern constinit const Kind matrix = {
+namespace {
+
+constexpr ToldBeforehand told_of_matrix = {
+    .data = [](const StatementWords& s, RoutineData& data) { data.matrices[s.id()]; }, .makes_modes = true};
+
+}  // namespace
+
+extern constinit const Kind matrix = Kind{
     "MATRIX",
     "",
     "A table of numbers, written out or from a file.",
     Kind::Role::element,
     detail::argument_infos<MatrixStatement>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<MatrixSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<MatrixSet>(kind);
+    }}.telling(told_of_matrix);
 
 }  // namespace dynalin

@@ -18,6 +18,7 @@
 #include "elements/constraints/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
@@ -243,14 +244,21 @@ void attach_data(const Model& model, SplineUse& use) {
   }
 }
 
-extern constinit const Kind spline = Kind{
-    "SPLINE",
-    "",
-    "Data points of a curve or of a family of curves.",
-    Kind::Role::element,
-    detail::argument_infos<WrittenSpline>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<SplineSet>(kind);
-    }}.with_example("SPLINE/1, Y=0,1,4,9");
+namespace {
+
+constexpr ToldBeforehand told_of_spline = {
+    .data = [](const StatementWords& s, RoutineData& data) { data.splines[s.id()]; }};
+
+}  // namespace
+
+extern constinit const Kind spline =
+    Kind{"SPLINE",
+         "",
+         "Data points of a curve or of a family of curves.",
+         Kind::Role::element,
+         detail::argument_infos<WrittenSpline>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<SplineSet>(kind); }}
+        .telling(told_of_spline)
+        .with_example("SPLINE/1, Y=0,1,4,9");
 
 }  // namespace dynalin

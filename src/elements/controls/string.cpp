@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 #include "routine/routine_data.h"
 
 namespace dynalin {
@@ -29,14 +30,23 @@ class StringSet final : public TypedSet<Text> {
 
 }  // namespace
 
-extern constinit const Kind string = Kind{
-    "STRING",
-    "",
-    "Text for compiled routines.",
-    Kind::Role::element,
-    detail::argument_infos<Text>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<StringSet>(kind);
-    }}.with_example("STRING/1, STRING=text");
+namespace {
+
+// Routines look at texts when they are asked what they read.
+constexpr ToldBeforehand told_of_string = {.data = [](const StatementWords& s, RoutineData& data) {
+  data.strings[s.id()] = s.text("STRING").substr(0, RoutineData::longest_text);
+}};
+
+}  // namespace
+
+extern constinit const Kind string =
+    Kind{"STRING",
+         "",
+         "Text for compiled routines.",
+         Kind::Role::element,
+         detail::argument_infos<Text>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<StringSet>(kind); }}
+        .telling(told_of_string)
+        .with_example("STRING/1, STRING=text");
 
 }  // namespace dynalin

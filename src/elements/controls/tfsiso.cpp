@@ -12,11 +12,13 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "elements/controls/array.h"
 #include "elements/families/linear_states.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 
 namespace dynalin {
 
@@ -144,14 +146,25 @@ class TfsisoSet final : public TypedSet<Tfsiso> {
 
 }  // namespace
 
-extern constinit const Kind tfsiso = Kind{
-    "TFSISO",
-    "",
-    "A transfer function with one input and one output.",
-    Kind::Role::element,
-    detail::argument_infos<Tfsiso>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<TfsisoSet>(kind);
-    }}.with_example("TFSISO/1, NUMERATOR=2");
+namespace {
+
+std::vector<FilledList> filled_by_tfsiso(const StatementWords& s) {
+  const std::size_t coefficients = s.reals("DENOMINATOR").size();
+  const auto states = coefficients > 0 ? std::optional(coefficients - 1) : std::nullopt;
+  return {{ArrayClass::statement, s.integer("X"), states}, {ArrayClass::statement, s.integer("Y"), std::size_t{1}}};
+}
+constexpr ToldBeforehand told_of_tfsiso = {.fills = filled_by_tfsiso};
+
+}  // namespace
+
+extern constinit const Kind tfsiso =
+    Kind{"TFSISO",
+         "",
+         "A transfer function with one input and one output.",
+         Kind::Role::element,
+         detail::argument_infos<Tfsiso>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<TfsisoSet>(kind); }}
+        .telling(told_of_tfsiso)
+        .with_example("TFSISO/1, NUMERATOR=2");
 
 }  // namespace dynalin

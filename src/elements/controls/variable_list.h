@@ -6,6 +6,7 @@
 
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 
 namespace dynalin {
 
@@ -28,13 +29,17 @@ class VariableListSet final : public TypedSet<VariableList> {
   static void warn_of_repeated(const VariableList&, ElementReader&);
 };
 
+inline constexpr ToldBeforehand told_of_variable_list = {
+    .size = [](const StatementWords& s) { return known_size(s.integers("VARIABLES").size()); }};
+
 constexpr Kind variable_list(std::string_view statement, std::string_view summary) {
-  return {statement,
-          "",
-          summary,
-          Kind::Role::element,
-          detail::argument_infos<VariableList>,
-          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableListSet>(kind); }};
+  return Kind{statement,
+              "",
+              summary,
+              Kind::Role::element,
+              detail::argument_infos<VariableList>,
+              [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<VariableListSet>(kind); }}
+      .telling(told_of_variable_list);
 }
 
 }  // namespace dynalin

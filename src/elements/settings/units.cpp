@@ -13,6 +13,7 @@
 #include "elements/settings/time_unit.h"
 #include "model/model.h"
 #include "model/schema.h"
+#include "model/told_beforehand.h"
 
 namespace dynalin {
 
@@ -178,14 +179,20 @@ double seconds_in(std::string_view unit_of_time) {
   return found == time_units.end() ? 1.0 : found->si;
 }
 
-extern constinit const Kind units = Kind{
-    "UNITS",
-    "",
-    "Units of the dataset; they enter by the consistency factor alone.",
-    Kind::Role::singleton,
-    detail::argument_infos<UnitsStatement>,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
-      return std::make_unique<UnitsSet>(kind);
-    }}.for_good();
+namespace {
+
+constexpr ToldBeforehand told_of_units = {.makes_modes = true};
+
+}  // namespace
+
+extern constinit const Kind units =
+    Kind{"UNITS",
+         "",
+         "Units of the dataset; they enter by the consistency factor alone.",
+         Kind::Role::singleton,
+         detail::argument_infos<UnitsStatement>,
+         [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<UnitsSet>(kind); }}
+        .for_good()
+        .telling(told_of_units);
 
 }  // namespace dynalin
