@@ -120,7 +120,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
-    return std::make_unique<FlexibleBodyKernel>(model, layout);
+    return std::make_unique<FlexibleBodyKernel>(flexible_bodies(model), model, layout);
   }
 
  private:

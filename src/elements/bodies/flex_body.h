@@ -1,16 +1,13 @@
 // What others ask of FLEX_BODY statements beyond the body.
 #pragma once
 
-#include "flexible/modal_body.h"
+#include <vector>
+
+#include "elements/families/flexible_place.h"
 #include "model/model.h"
 
 namespace dynalin {
 
-struct FlexibleBody {
-  BodyId body;
-  const ModalBody* flexible = nullptr;
-  std::size_t first = 0;  // of its modal coordinates among those outside poses
-};
 // All of the model, in the order of the bodies. Mass and inertia of their Body are those of the undeformed body about
 // the BCS, which stands for the mass centre.
 std::vector<FlexibleBody> flexible_bodies(const Model&);

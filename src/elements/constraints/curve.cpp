@@ -9,7 +9,7 @@
 // FUNCTION calls a compiled routine of the user for the point and its derivatives. Between MINPAR and MAXPAR, −1 and 1
 // unless stated, a contact is looked for and the curve is drawn; a closed one repeats with that period, an open one has
 // no ends.
-#include "elements/constraints/curve.h"
+#include "elements/families/curve.h"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "base/read_file.h"
-#include "elements/constraints/curve.h"
+#include "elements/families/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
 #include "model/told_beforehand.h"

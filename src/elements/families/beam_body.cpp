@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "elements/bodies/beam_states.h"
+#include "elements/families/beam_states.h"
 
 namespace dynalin {
 
@@ -51,9 +51,10 @@ std::string turned_by(double limit, const BeamBody& b, const Motion& motion) {
 
 }  // namespace
 
-BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(model.gravity) {
+BeamBodyKernel::BeamBodyKernel(std::vector<BeamBody> beams, const Model& model, Layout& layout)
+    : beams_(std::move(beams)), gravity_(model.gravity) {
   static constexpr std::array<char, 3> axes = {'X', 'Y', 'Z'};
-  for (const BeamBody& b : beam_bodies(model)) {
+  for (const BeamBody& b : beams_) {
     const BeamStates states(b.nodes.size(), b.plane);
     std::vector<ExtraCoordinate> coordinates;
     for (std::size_t k = 0; k < b.nodes.size(); ++k) {
@@ -81,7 +82,7 @@ BeamBodyKernel::BeamBodyKernel(const Model& model, Layout& layout) : gravity_(mo
     }
     layout.add_extra(*b.label, {StateType::fe_part, ExtraRole::nodal, states.count()}, std::move(coordinates));
   }
-  beams_ = beam_bodies(model, layout);
+  find_coordinates(beams_, layout);
   for (const BeamBody& b : beams_) {
     bodies_.emplace_back(model, layout, b);
     TurningWhole whole{b.nodes, {}};

@@ -11,8 +11,8 @@ namespace dynalin {
 
 class BeamBodyKernel final : public Kernel {
  public:
-  // All beams of the model; adds their coordinates to the layout.
-  BeamBodyKernel(const Model&, Layout&);
+  // Adds the coordinates of beams outside poses to the layout.
+  BeamBodyKernel(std::vector<BeamBody>, const Model&, Layout&);
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   std::string domain_violation(const Motion&) const override;

@@ -31,7 +31,7 @@
 #include <string_view>
 #include <vector>
 
-#include "elements/constraints/curve.h"
+#include "elements/families/curve.h"
 #include "elements/families/markers.h"
 #include "mechanics/event_source.h"
 #include "mechanics/kernel.h"

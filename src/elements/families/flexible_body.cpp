@@ -56,8 +56,9 @@ ModalInertia dynamical(ModalInertia I, double ucf) {
 
 }  // namespace
 
-FlexibleBodyKernel::FlexibleBodyKernel(const Model& model, Layout& layout) : gravity_(model.gravity) {
-  for (const FlexibleBody& f : flexible_bodies(model)) {
+FlexibleBodyKernel::FlexibleBodyKernel(const std::vector<FlexibleBody>& all, const Model& model, Layout& layout)
+    : gravity_(model.gravity) {
+  for (const FlexibleBody& f : all) {
     const Body& body = model.body(f.body);
     Item item{f.body,
               f.flexible,

@@ -26,8 +26,7 @@ namespace dynalin {
 // Of bodies whose modal coordinates or rates compiled routines read each is an unknown as well, u − q = 0.
 class FlexibleBodyKernel final : public Kernel, public StartSource, public ChannelSource {
  public:
-  // All flexible bodies of the model.
-  FlexibleBodyKernel(const Model&, Layout&);
+  FlexibleBodyKernel(const std::vector<FlexibleBody>&, const Model&, Layout&);
   void equations(const Motion&, Equations&) const override;
   std::vector<const BodySource*> bodies() const override;
 

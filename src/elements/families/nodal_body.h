@@ -1,7 +1,7 @@
 // A beam of finite elements, FE_PART, for those who weigh it: its elements have all of the mass.
 #pragma once
 
-#include "elements/bodies/fe_part.h"
+#include "elements/families/beam_place.h"
 #include "mechanics/body_source.h"
 #include "model/model.h"
 

@@ -6,7 +6,7 @@
 // (a and b in the plane) leave r and s in the plane, four coordinates a node.
 #pragma once
 
-#include "elements/bodies/fe_part.h"
+#include "elements/families/beam_place.h"
 #include "mechanics/kernel.h"
 
 namespace dynalin {

@@ -1,7 +1,7 @@
 // A body with shapes, FLEX_BODY, for those who weigh it: its mass matrix is that of flexible/modal_inertia.h.
 #pragma once
 
-#include "elements/bodies/flex_body.h"
+#include "elements/families/flexible_place.h"
 #include "mechanics/body_source.h"
 #include "model/model.h"
 

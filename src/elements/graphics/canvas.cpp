@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/constraints/curve.h"
+#include "elements/families/curve.h"
 #include "geometry/lines.h"
 
 namespace dynalin {

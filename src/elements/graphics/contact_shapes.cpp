@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "elements/constraints/curve.h"
 #include "elements/families/common_frame.h"
+#include "elements/families/curve.h"
 #include "elements/graphics/types.h"
 
 namespace dynalin::drawing {

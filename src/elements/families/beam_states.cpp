@@ -1,4 +1,4 @@
-#include "elements/bodies/beam_states.h"
+#include "elements/families/beam_states.h"
 
 namespace dynalin {
 
