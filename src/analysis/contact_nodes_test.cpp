@@ -33,8 +33,8 @@ std::string beam(const std::string& rest) {
   return "MATERIAL/1, DENSITY=2000, YOUNGS_MODULUS=2E7, POISSONS_RATIO=.3\n"
          "FE_PART/2, TYPE=3DBEAM, MATERIAL=1, NODE_LABELS=1,2,3, X=0,.5,1, AREA=4E-4, IYY=1.3E-8, IZZ=1.3E-8, "
          "QG=0,0,.09, VZ=-.5\n"
-         "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=3\n"
-         "MARKER/23, FE_PART=2, NODE_LABEL=3, QP=.01,.02,.03, REULER=1,2,3\n"
+         "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=3, QP=1,0,0\n"
+         "MARKER/23, FE_PART=2, NODE_LABEL=3, QP=1.01,.02,.03, REULER=1,2,3\n"
          "GRAPHICS/1, PLANE, RM=1, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\n" +
          rest;
 }
@@ -100,8 +100,10 @@ TEST(ContactOfNodes, one_shape_is_on_one_node) {
     for (const bool flexible : {true, false}) {
       const auto with = [&, &name = name, &is_curve = is_curve](const std::string& drawing) {
         const std::string on = flexible ? "FLEX_BODY=2, NODE_ID=2" : "FE_PART=2, NODE_LABEL=3";
-        const std::string rest = "MARKER/25, QP=.2,.3,0, " + on + "\nMARKER/26, QP=.2,0,0, " + on + "\nGRAPHICS/2, " +
-                                 drawing + "\nGRAPHICS/4, CIRCLE, CM=1, RADIUS=3\n" +
+        // From the node of the flexible body, of the BCS of the beam.
+        const std::string x = flexible ? ".2" : "1.2";
+        const std::string rest = "MARKER/25, QP=" + x + ",.3,0, " + on + "\nMARKER/26, QP=" + x + ",0,0, " + on +
+                                 "\nGRAPHICS/2, " + drawing + "\nGRAPHICS/4, CIRCLE, CM=1, RADIUS=3\n" +
                                  (is_curve ? "CONTACT/1, IGEOM=2, JGEOM=4, IMPACT, STIFFNESS=500, EXPONENT=1.5, "
                                              "DAMPING=5, DMAX=.01\n"
                                            : contact(1, "IGEOM=2"));

@@ -44,6 +44,7 @@ constexpr auto short_forms = std::to_array<ShortForm>({
     {"FLE", "FLEX_BODY"},
     {"A", "ACTIONONLY"},
     {"D", "DISSIPAT"},
+    {"CR", "CRATIO"},
     // kinds of joints
     {"C", "CYLINDRICAL"},
     {"T", "TRANSLATIONAL"},

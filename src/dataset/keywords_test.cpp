@@ -64,6 +64,8 @@ TEST(find_keyword, reads_a_documented_short_form_by_what_is_possible_there) {
   EXPECT_EQ(find_keyword("C", joint), 1u);
   const std::array<std::string_view, 3> graphics{"RM", "RANGLE", "RADIUS"};
   EXPECT_EQ(find_keyword("r", graphics), 2u);
+  const std::array<std::string_view, 3> beam{"CRATIOK", "CRATIO", "CRATIOM"};
+  EXPECT_EQ(find_keyword("crat", beam), 1u);
 }
 
 TEST(nearest_word, finds_what_was_probably_meant) {

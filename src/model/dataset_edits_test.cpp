@@ -113,6 +113,8 @@ TEST(DatasetEdits, know_what_is_stated_of_the_start) {
                                                             {"FLEX_BODY/1, QG=1,2,3", true, {}},
                                                             {"FE_PART/1, WX=1", false, {"WX"}},
                                                             {"FE_PART/1, Z=1,2", true, {}},
+                                                            {"FE_PART/1, COORDINATES=1,2", true, {}},
+                                                            {"FE_PART/1, SECTION=1,2", false, {}},
                                                             {"DIFF/1, IC=1", true, {}},
                                                             {"DIFF/1, FUNCTION=1", false, {}},
                                                             {"VARIABLE/1, IC=1", true, {}},

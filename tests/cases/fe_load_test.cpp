@@ -159,9 +159,9 @@ TEST(FeLoad, is_what_many_loads_on_nodes_add_up_to) {
     std::string loads;
     for (int k = 1; k <= n; ++k) {
       loads += fmt::format(
-          "MARKER/{0}, FE_PART=2, NODE_LABEL={1}\nMARKER/{2}, FLOATING, PART=1\nGFORCE/{1}, I={0}, "
+          "MARKER/{0}, FE_PART=2, NODE_LABEL={1}, QP={4:.17g},0,0\nMARKER/{2}, FLOATING, PART=1\nGFORCE/{1}, I={0}, "
           "JFLOAT={2}, {3}\n",
-          100 + k, k + 1, 200 + k, components((k == n ? 0.5 : 1.0) / n));
+          100 + k, k + 1, 200 + k, components((k == n ? 0.5 : 1.0) / n), static_cast<double>(k) / n);
     }
     const std::string along = clamped_beam(beam, load(components(1))), lumped = clamped_beam(beam, loads);
     const auto a = equilibrium(along), b = equilibrium(lumped);

@@ -47,7 +47,7 @@ TEST(FePartStatics, a_stiff_bar_turns_to_where_it_hangs) {
             fmt::format("bar\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=.1,.2,.3\nMATERIAL/1, DENSITY=7800, "
                         "YOUNGS_MODULUS=2.1E11, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, "
                         "NODE_LABELS=1,2,3, X=0,0.5,1, AREA=1E-4, IYY=8.333E-10, IZZ=9E-10, QG=.1,.2,.3, REULER={}\n"
-                        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/23, FE_PART=2, NODE_LABEL=3\n"
+                        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/23, FE_PART=2, NODE_LABEL=3, QP=1,0,0\n"
                         "ACCGRAV/IGRAV=0.3, KGRAV=-9.81\nJOINT/1, SPHERICAL, I=21, J=1\nEND\n",
                         attitude))
             .static_equilibrium();
@@ -124,9 +124,10 @@ TEST(FePartStatics, the_45_degree_bend_follows_the_continuum) {
         "NODE_LABELS={}\n"
         ", X={}\n, Y={}\n, PSI={}\n, AREA=1, IYY=0.083333333333333, IZZ=0.083333333333333, IXX=0.16666666666667, "
         "ASY=1, "
-        "ASZ=1\nMARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=9\nJOINT/1, FIXED, I=21, J=1\n"
-        "VFORCE/1, I=22, JFLOAT=2, RM=1, FZ={:.17g}\n",
-        fmt::join(labels, ","), fmt::join(x, "\n, "), fmt::join(y, "\n, "), fmt::join(psi, "\n, "), P));
+        "ASZ=1\nMARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=9, QP={},{},0\n"
+        "JOINT/1, FIXED, I=21, J=1\nVFORCE/1, I=22, JFLOAT=2, RM=1, FZ={:.17g}\n",
+        fmt::join(labels, ","), fmt::join(x, "\n, "), fmt::join(y, "\n, "), fmt::join(psi, "\n, "), x.back(), y.back(),
+        P));
   };
   for (const Case& c : {Case{300, 22.24478, 58.77912, 40.19189}, {600, 15.68480, 47.15044, 53.47486}}) {
     const auto point = loaded([&](double load) { return dataset(c.P * load); }, 4);
@@ -186,14 +187,14 @@ TEST(FePartStatics, what_rounding_of_stiff_terms_could_explain_is_carried_by_the
   };
   for (const Case& c : {Case{2e9, 1e-3, 1e-6, 0.01, ", ASY=1E-5, ASZ=1E-5"},
                         Case{2e9, 1e-3, 1e-6, 0.1, ", ASY=1E-5, ASZ=1E-5"}, Case{2.1e11, 1, 0.0833, 0.001, ""}}) {
-    const auto point =
-        study_of(beam_model(fmt::format("MATERIAL/2, DENSITY=1000, YOUNGS_MODULUS={0:.17g}, POISSONS_RATIO=0.3\n"
-                                        "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3,4,5, X=0,0.5,1,1.5,2\n"
-                                        ", AREA={1:.17g}, IYY={2:.17g}, IZZ={2:.17g}{3}\n"
-                                        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=5\n"
-                                        "JOINT/1, FIXED, I=21, J=1\nFE_LOAD/1, FE_PART=2, FY={4:.17g}\n",
-                                        c.E, c.area, c.inertia, c.further, -c.q)))
-            .static_equilibrium();
+    const auto point = study_of(beam_model(fmt::format(
+                                    "MATERIAL/2, DENSITY=1000, YOUNGS_MODULUS={0:.17g}, POISSONS_RATIO=0.3\n"
+                                    "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3,4,5, X=0,0.5,1,1.5,2\n"
+                                    ", AREA={1:.17g}, IYY={2:.17g}, IZZ={2:.17g}{3}\n"
+                                    "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=5, QP=2,0,0\n"
+                                    "JOINT/1, FIXED, I=21, J=1\nFE_LOAD/1, FE_PART=2, FY={4:.17g}\n",
+                                    c.E, c.area, c.inertia, c.further, -c.q)))
+                           .static_equilibrium();
     EXPECT_NEAR(point.load({"JOINT", 1}).force[1], 2 * c.q, 2e-8) << c.q;
     EXPECT_NEAR(point.load({"JOINT", 1}).torque[2], 2 * c.q, 2e-8) << c.q;
     const double bending = c.q * 16 / (8 * c.E * c.inertia);
@@ -209,7 +210,8 @@ TEST(FePartStatics, a_beam_that_assembly_has_bent_is_straight_at_rest) {
   const std::string dataset = beam_model(
       "MATERIAL/2, DENSITY=2000, YOUNGS_MODULUS=2E9, POISSONS_RATIO=0.3\n"
       "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3, X=0,1,2, AREA=0.001, IYY=1E-8, IZZ=1E-8, ASY=0.001, "
-      "ASZ=0.001\nMARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=3\nJOINT/1, FIXED, I=21, J=1\n"
+      "ASZ=0.001\nMARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=3, QP=2,0,0\n"
+      "JOINT/1, FIXED, I=21, J=1\n"
       "PART/3, MASS=0.2, CM=40, IP=1E-3,1E-3,1E-3, QG=1,1,0\nMARKER/40, PART=3\nJOINT/2, FIXED, I=40, J=22\n");
   const auto point = study_of(dataset).static_equilibrium();
   for (const std::int64_t joint : {1, 2}) {

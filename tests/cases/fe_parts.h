@@ -41,9 +41,9 @@ struct StraightBeam {
         "MATERIAL/{0}, DENSITY={1:.17g}, YOUNGS_MODULUS={2:.17g}, POISSONS_RATIO={3:.17g}\n"
         "FE_PART/{0}, TYPE={11}, MATERIAL={0}, NODE_LABELS={4}\n, X={5}\n, AREA={6:.17g}, IYY={7:.17g}, "
         "IZZ={8:.17g}{9}\n"
-        "MARKER/{0}1, FE_PART={0}, NODE_LABEL=1\nMARKER/{0}2, FE_PART={0}, NODE_LABEL={10}\n",
+        "MARKER/{0}1, FE_PART={0}, NODE_LABEL=1\nMARKER/{0}2, FE_PART={0}, NODE_LABEL={10}, QP={12},0,0\n",
         id, mass_by_volume(), modulus(), poisson, fmt::join(labels, ","), fmt::join(places, "\n, "), area(), yy(), zz(),
-        further, elements + 1, type);
+        further, elements + 1, type, places.back());
   }
 };
 

@@ -35,7 +35,7 @@ class FlexibleDeck : public ProgramLibraryAndDecks {
            "PART/3, MASS=4E3, CM=30, IP=100,200,300, QG=0.3,-0.2,0.7\nMARKER/30, QP=0.1,0.2,0.3\n"
            "BUSHING/1, I=30, J=22, K=9E6,8E6,7E6, KT=9E5,8E5,7E5, C=3E4,2E4,1E4, CT=3E3,2E3,1E3\n" +
            beam.text() +
-           "MARKER/43, FE_PART=4, NODE_LABEL=2\n"
+           "MARKER/43, FE_PART=4, NODE_LABEL=2, QP=0.25,0,0\n"
            "BUSHING/2, I=41, J=23, K=5E6,6E6,4E6, KT=5E5,6E5,7E5, C=1E4,2E4,3E4, CT=1E3,2E3,3E3\n"
            "SPRINGDAMPER/1, TRANSLATIONAL, I=43, J=30, K=5E5, C=4E3, LENGTH=0.1\nEND\n";
   }

@@ -50,7 +50,7 @@ TEST(Help, lists_statements_commands_and_functions) {
     EXPECT_THAT(all.out, HasSubstr(title));
   EXPECT_LT(count(all.out, "\n"), 150u);
   EXPECT_THAT(all.out, HasSubstr("  settings and output\n    OUTPUT "));
-  EXPECT_THAT(all.out, HasSubstr("  read, without effect\n    LSOLVER FEMDATA TIMGRAPHICS\n"));
+  EXPECT_THAT(all.out, HasSubstr("  read, without effect\n    LSOLVER FEMDATA SECTION FE_NODE TIMGRAPHICS\n"));
 }
 
 TEST(Help, has_a_page_for_every_name) {

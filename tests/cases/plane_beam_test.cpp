@@ -182,7 +182,9 @@ TEST(PlaneBeam, far_bent_is_the_beam_in_space_that_is_held_in_the_plane) {
       beam_model(space.text() + "MARKER/3, PART=1, QP=0.3,-0.2,0.5\nJOINT/1, FIXED, I=21, J=3\n" + force);
   std::string primitives;
   for (int k = 2; k <= n + 1; ++k) {
-    primitives += fmt::format("MARKER/{0}, FE_PART=2, NODE_LABEL={1}\nJPRIM/{1}, INPLANE, I={0}, J=3\n", 30 + k, k);
+    primitives +=
+        fmt::format("MARKER/{0}, FE_PART=2, NODE_LABEL={1}, QP={2:.17g},0,0\nJPRIM/{1}, INPLANE, I={0}, J=3\n", 30 + k,
+                    k, (k - 1.0) / n);
     primitives += fmt::format("JPRIM/{1}, PARALLEL_AXES, I={0}, J=3\n", 30 + k, 100 + k);
   }
   held.insert(held.rfind("END"), primitives);

@@ -71,7 +71,7 @@ TEST_F(SaveReload, a_beam_of_other_nodes_starts_as_drawn) {
            "MATERIAL/1, DENSITY=2700, YOUNGS_MODULUS=7E9, POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, " +
            nodes +
            ", AREA=4E-4, IYY=3E-8, IZZ=1E-8\nMARKER/21, FE_PART=2, NODE_LABEL=1\n"
-           "MARKER/22, FE_PART=2, NODE_LABEL=5\nJOINT/1, FIXED, I=21, J=1\nVARIABLE/1, FUNCTION=DX(22)\n"
+           "MARKER/22, FE_PART=2, NODE_LABEL=5, QP=1,0,0\nJOINT/1, FIXED, I=21, J=1\nVARIABLE/1, FUNCTION=DX(22)\n"
            "REQUEST/1, VARIABLES=1\nEND\n";
   };
   const std::string five = beam("NODE_LABELS=1,2,3,4,5, X=0,.25,.5,.75,1"), three = "NODE_LABELS=1,3,5, X=0,.5,1";

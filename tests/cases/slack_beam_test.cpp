@@ -24,8 +24,8 @@ struct SlackBeam {
         "Slack strip between two pins\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV={}\nPART/1, GROUND\nMARKER/1\n"
         "MARKER/3, QP={:.17g},0,0\nMATERIAL/1, DENSITY=1000, YOUNGS_MODULUS=1E9, POISSONS_RATIO=0.3\n"
         "FE_PART/2, TYPE={}, MATERIAL=1, NODE_LABELS={}\n, X={}, AREA=1E-4, IYY=2E-10, IZZ=2E-10\n"
-        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL={}\nJOINT/1, SPHERICAL, I=21, J=1\n"
-        "JOINT/2, SPHERICAL, I=22, J=3\nEND\n",
+        "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL={}, QP=1,0,0\n"
+        "JOINT/1, SPHERICAL, I=21, J=1\nJOINT/2, SPHERICAL, I=22, J=3\nEND\n",
         gravity, span, type, labels, places, elements + 1);
   }
   StaticResult rest() const { return study_of(text()).static_equilibrium().static_result(); }

@@ -463,11 +463,13 @@ std::string dataset_text(const Mechanism& m) {
       s.set(owner_keyword(k.body.kind), std::to_string(k.body.id));
     }
     if (!k.floating && k.body.kind == BodyKind::beam_node) {
-      // Along the axes of the BCS, undeformed.
+      // In the BCS, undeformed.
       const Beam& b =
           *std::find_if(m.beams.begin(), m.beams.end(), [&](const Beam& x) { return x.id == k.body.id / 100; });
-      const Mat node = rotation_313(b.angles[static_cast<std::size_t>(k.body.id % 100)]);
-      s.set("QP", to_triple(node * to_vec(k.qp))).set("REULER", angles_313(node * rotation_313(k.reuler)));
+      const auto number = static_cast<std::size_t>(k.body.id % 100);
+      const Mat node = rotation_313(b.angles[number]);
+      s.set("QP", to_triple(to_vec(b.places[number]) + node * to_vec(k.qp)))
+          .set("REULER", angles_313(node * rotation_313(k.reuler)));
     } else if (!k.floating) {
       s.set("QP", k.qp).set("REULER", k.reuler);
     }

@@ -84,7 +84,7 @@ TEST(FastRotation, a_beam_of_finite_elements_spins_about_its_axis) {
   const Course c = led_through_time(
       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMATERIAL/1, DENSITY=7800, YOUNGS_MODULUS=2E11, "
       "POISSONS_RATIO=0.3\nFE_PART/2, TYPE=3DBEAM, MATERIAL=1, NODE_LABELS=1,2,3, X=0,0.5,1, AREA=1E-2, IYY=8E-6, "
-      "IZZ=8E-6, WX=30\nMARKER/20, FE_PART=2, NODE_LABEL=2\nVARIABLE/1, FUNCTION=WM(20)\nEND\n",
+      "IZZ=8E-6, WX=30\nMARKER/20, FE_PART=2, NODE_LABEL=2, QP=0.5,0,0\nVARIABLE/1, FUNCTION=WM(20)\nEND\n",
       {1, 100, 1e-6});
   ASSERT_TRUE(c.ok()) << c.failure;
   EXPECT_NEAR(c.last(1), 30, 1e-5);

@@ -12,7 +12,7 @@ TEST(StiffShapes, a_rod_that_swings_without_damping_takes_steps_of_its_swing) {
       "MATERIAL/2, DENSITY=7850, YOUNGS_MODULUS=2.1E11, POISSONS_RATIO=0.3\n"
       "FE_PART/2, TYPE=3DBEAM, MATERIAL=2, NODE_LABELS=1,2,3,4,5, X=0,.25,.5,.75,1, AREA=1E-4, IYY=8.333E-10, "
       "IZZ=8.333E-10\n"
-      "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=5\nJOINT/1, REVOLUTE, I=21, J=1\n"
+      "MARKER/21, FE_PART=2, NODE_LABEL=1\nMARKER/22, FE_PART=2, NODE_LABEL=5, QP=1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\n"
       "VARIABLE/1, FUNCTION=DY(22)\nEND\n",
       {0.4, 4});
   ASSERT_TRUE(c.ok()) << c.failure;

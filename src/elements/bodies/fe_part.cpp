@@ -116,7 +116,8 @@ std::vector<BeamBody> beam_bodies(const Model& model) {
     for (std::size_t k = 0; beams && k < beams->elements.size(); ++k) {
       const FePart& f = beams->elements[k];
       if (f.nodes.empty()) continue;
-      BeamBody b{&beams->labels[k], f.nodes, f.numbers, &f.elements, f.plane, {f.origin, f.axes}, {}, 0};
+      BeamBody b{&beams->labels[k], f.nodes, f.numbers, {}, &f.elements, f.plane, {f.origin, f.axes}, {}, 0};
+      for (std::size_t node = 0; node < f.numbers.size(); ++node) b.places.push_back(place_of_node(f, node));
       b.velocity = {{f.vx, f.vy, f.vz}, {f.wx, f.wy, f.wz}, f.vm.valid() ? f.vm : global_frame, f.wm};
       list.push_back(std::move(b));
     }

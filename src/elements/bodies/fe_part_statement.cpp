@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dataset/characters.h"
+#include "elements/bodies/fe_part_rows.h"
 #include "flexible/rotation_field.h"
 
 namespace dynalin {
@@ -46,11 +47,42 @@ bool takes_type(FePart& f, ElementReader& reader) {
   return false;
 }
 
-bool has_counts(const FePart& f, ElementReader& reader) {
+// Places and sections, each in one of its two forms.
+bool states_what_it_needs(ElementReader& reader) {
+  bool ok = true;
+  for (const auto& [argument, rows] : {std::pair{"NODE_LABELS", "COORDINATES"},
+                                       {"X", "COORDINATES"},
+                                       {"AREA", "SECTION"},
+                                       {"IYY", "SECTION"},
+                                       {"IZZ", "SECTION"}}) {
+    if (reader.given(argument) || reader.given(rows)) continue;
+    reader.error("missing-argument", reader.statement().at,
+                 fmt::format("{} needs {}, or {}", reader.label().text(), argument, rows));
+    ok = false;
+  }
+  return ok;
+}
+
+bool has_one_damping(const FePart& f, ElementReader& reader) {
+  const std::string name = reader.label().text();
+  if (f.damping_by_mass.value_or(0) > 0) {
+    reader.error("argument-not-built", reader.at("CRATIOM"),
+                 fmt::format("CRATIOM of {} is not available: what damping by mass does is not published", name),
+                 "CRATIOK is damping by stiffness");
+    return false;
+  }
+  if (!reader.given("CRATIO") || !reader.given("CRATIOK")) return true;
+  reader.error("excluded-arguments", reader.at("CRATIO"), fmt::format("CRATIOK and CRATIO of {} state the same", name),
+               "leave one of them out");
+  return false;
+}
+
+bool has_labels(const FePart& f, ElementReader& reader) {
   const std::size_t n = f.numbers.size();
   const std::string name = reader.label().text();
   if (n < 2) {
-    reader.error("wrong-count", reader.at("NODE_LABELS"), fmt::format("{} has {} node, it needs two or more", name, n));
+    reader.error("wrong-count", reader.at(reader.given("NODE_LABELS") ? "NODE_LABELS" : "COORDINATES"),
+                 fmt::format("{} has {} node, it needs two or more", name, n));
     return false;
   }
   for (std::size_t k = 0; k < n; ++k) {
@@ -59,10 +91,16 @@ bool has_counts(const FePart& f, ElementReader& reader) {
                  fmt::format("NODE_LABELS of {} are positive numbers, each once: {}", name, f.numbers[k]));
     return false;
   }
+  return true;
+}
+
+bool has_counts(const FePart& f, ElementReader& reader) {
+  const std::size_t n = f.numbers.size();
+  const std::string name = reader.label().text();
   bool ok = true;
   for (const Argument<FePart>& a : FePart::arguments) {
     const auto* list = std::get_if<std::vector<double> FePart::*>(&a.slot);
-    if (!list || (f.**list).size() <= 1 || (f.**list).size() == n) continue;
+    if (!list || is_rows(a.name) || (f.**list).size() <= 1 || (f.**list).size() == n) continue;
     reader.error("wrong-count", reader.at(a.name),
                  fmt::format("{} has {} values, {} has {} nodes", a.name, (f.**list).size(), name, n),
                  "one value for each node, or one for all");
@@ -79,17 +117,19 @@ bool has_sections(const FePart& f, ElementReader& reader) {
                                    {"IZZ", &f.zz},
                                    {"ASY", &f.shear_y},
                                    {"ASZ", &f.shear_z}}) {
-    for (const double v : *list) {
-      if (v > 0) continue;
-      reader.error("value-out-of-range", reader.at(word),
-                   fmt::format("{} of {} is {:g}, it must be positive", word, name, v));
+    // A row has it whether or not the beam twists.
+    if (list == &f.torsion && f.plane && reader.given("SECTION")) continue;
+    for (std::size_t k = 0; k < list->size(); ++k) {
+      if ((*list)[k] > 0) continue;
+      reader.error("value-out-of-range", stated_at(f, word, k, reader),
+                   fmt::format("{} of {} is {:g}, it must be positive", word, name, (*list)[k]));
       return false;
     }
   }
   for (std::size_t k = 0; k < f.numbers.size(); ++k) {
     const BeamSection s = section_of(f, k);
     if (s.yz * s.yz < s.yy * s.zz) continue;
-    reader.error("value-out-of-range", reader.at("IYZ"),
+    reader.error("value-out-of-range", stated_at(f, "IYZ", k, reader),
                  fmt::format("IYZ of {} is {:g}, its square must be below IYY times IZZ", name, s.yz));
     return false;
   }
@@ -103,16 +143,18 @@ bool lies_along_its_nodes(const FePart& f, ElementReader& reader) {
     const Vector chord = place_of_node(f, k + 1) - place_of_node(f, k);
     const double l = norm(chord);
     if (!(l > 0)) {
-      reader.error("value-out-of-range", reader.at("X"),
+      reader.error("value-out-of-range", stated_at(f, "X", k + 1, reader),
                    fmt::format("nodes {} and {} of {} are at one place", f.numbers[k], f.numbers[k + 1], name));
       return false;
     }
     for (const std::size_t node : {k, k + 1}) {
       if (dot(axes_of_node(f, node).x, chord) >= steepest * l) continue;
-      reader.error("value-out-of-range", reader.at("PSI"),
+      reader.error("value-out-of-range", stated_at(f, "PSI", node, reader),
                    fmt::format("the x axis of node {} of {} must lead from node {} to node {}", f.numbers[node], name,
                                f.numbers[k], f.numbers[k + 1]),
-                   "PSI, THETA and PHI are angles of the axes of nodes in the BCS, 0 unless stated");
+                   reader.given("COORDINATES")
+                       ? "the last three numbers of each node are the 3-1-3 angles of its axes in the BCS"
+                       : "PSI, THETA and PHI are angles of the axes of nodes in the BCS, 0 unless stated");
       return false;
     }
   }
@@ -123,8 +165,8 @@ bool lies_in_its_plane(const FePart& f, ElementReader& reader) {
   constexpr double flat = 1e-6;
   static constexpr std::array<std::string_view, 3> normals = {"x", "y", "z"};
   const std::string name = reader.label().text();
-  const auto error = [&](std::string_view argument, const std::string& what) {
-    reader.error("value-out-of-range", reader.at(argument),
+  const auto error = [&](const Span& at, const std::string& what) {
+    reader.error("value-out-of-range", at,
                  fmt::format("{} of {} must lie in a plane across the global {} axis: its TYPE is {}", what, name,
                              normals[f.plane->normal], f.type),
                  "QG, REULER, ZG and XG place the BCS; a 3DBEAM lies as it will");
@@ -132,11 +174,13 @@ bool lies_in_its_plane(const FePart& f, ElementReader& reader) {
   for (std::size_t k = 0; k < f.numbers.size(); ++k) {
     const Vector from_first = f.axes * (place_of_node(f, k) - place_of_node(f, 0));
     if (std::abs(from_first[f.plane->normal]) > flat * norm(from_first)) {
-      error("X", fmt::format("nodes {} and {}", f.numbers[0], f.numbers[k]));
+      error(stated_at(f, "X", k, reader), fmt::format("nodes {} and {}", f.numbers[0], f.numbers[k]));
       return false;
     }
     if (std::abs((f.axes * axes_of_node(f, k).x)[f.plane->normal]) > flat) {
-      error(reader.given("PSI") ? "PSI" : "TYPE", fmt::format("the x axis of node {}", f.numbers[k]));
+      const bool has_angles = reader.given("PSI") || reader.given("COORDINATES");
+      error(has_angles ? stated_at(f, "PSI", k, reader) : reader.at("TYPE"),
+            fmt::format("the x axis of node {}", f.numbers[k]));
       return false;
     }
   }
@@ -192,7 +236,9 @@ BeamSection section_of(const FePart& f, std::size_t k) {
 }
 
 bool describes_beam(FePart& f, ElementReader& reader) {
-  return takes_type(f, reader) && has_counts(f, reader) && has_sections(f, reader) && lies_along_its_nodes(f, reader);
+  return states_what_it_needs(reader) && has_one_damping(f, reader) && takes_type(f, reader) &&
+         labels_nodes(f, reader) && has_labels(f, reader) && take_rows(f, reader) && has_counts(f, reader) &&
+         has_sections(f, reader) && lies_along_its_nodes(f, reader);
 }
 
 void check_plane(const FePart& f, ElementReader& reader) {

@@ -1,10 +1,12 @@
-// FE_PART/id, TYPE={3DBEAM | 2DBEAMXY | 2DBEAMYZ | 2DBEAMZX}, MATERIAL=, NODE_LABELS=, X= [, Y=, Z=, PSI=, THETA=,
-// PHI=], AREA=, IYY=, IZZ= [, IYZ=, IXX=, ASY=, ASZ=, CRATIO=, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=]
+// FE_PART/id, TYPE={3DBEAM | 2DBEAMXY | 2DBEAMYZ | 2DBEAMZX}, MATERIAL=, {[NODE_LABELS=,] COORDINATES= | NODE_LABELS=,
+// X= [, Y=, Z=, PSI=, THETA=, PHI=]}, {SECTION= | AREA=, IYY=, IZZ= [, IYZ=, IXX=]} [, ASY=, ASZ=, {CRATIOK= |
+// CRATIO=}, QG=, {REULER= | ZG=, XG=}, VX= … WZ=, VM=, WM=]
 //
 // A beam with mass that may bend, twist, stretch and shear as far as it will: a geometrically exact beam between nodes
 // that have positions, axes and slopes of their own (flexible/spatial_beam.h). One of a 2D type stays in a plane
 // parallel to two global axes, where it bends and stretches (flexible/plane_beam.h). Nodes are stated in the BCS,
-// undeformed, with the x axis along the line of centroids. A list of numbers has one for each node, or one for all.
+// undeformed, with the x axis along the line of centroids. A list of numbers has one for each node, or one for all;
+// COORDINATES and SECTION have a row for each, which begins with its label (fe_part_rows.h).
 #pragma once
 
 #include <array>
@@ -21,9 +23,11 @@ struct FePart {
   std::string type;
   std::optional<std::int64_t> material;
   std::vector<std::int64_t> numbers;
+  std::vector<double> coordinates, sections;  // rows as written, of which the lists below are made
   std::vector<double> x, y, z, psi, theta, phi;
   std::vector<double> area, torsion, yy, zz, yz, shear_y, shear_z;
   double damping = 0;
+  std::optional<double> damping_by_mass;
   Vector origin;
   std::optional<Vector> angles, z_point, x_point;
   std::optional<double> vx, vy, vz, wx, wy, wz;
@@ -35,7 +39,7 @@ struct FePart {
   BeamElements elements;
   std::vector<BodyId> nodes;
 
-  static constexpr std::array<Argument<FePart>, 29> arguments = {{
+  static constexpr std::array<Argument<FePart>, 33> arguments = {{
       {.name = "TYPE",
        .slot = &FePart::type,
        .required = true,
@@ -48,11 +52,15 @@ struct FePart {
        .ids_of = "MATERIAL"},
       {.name = "NODE_LABELS",
        .slot = &FePart::numbers,
-       .required = true,
-       .help = "numbers of the nodes, from end to end"},
+       .help = "labels of the nodes, from end to end; as in COORDINATES unless stated"},
+      {.name = "COORDINATES",
+       .slot = &FePart::coordinates,
+       .unit = "length, rad",
+       .help = "of each node its label, x, y, z in the BCS and the 3-1-3 angles of its axes",
+       .ends = "X Y Z PSI THETA PHI",
+       .start = StatedStart::place},
       {.name = "X",
        .slot = &FePart::x,
-       .required = true,
        .unit = unit::length,
        .help = "places of the nodes in the BCS",
        .start = StatedStart::place},
@@ -77,18 +85,34 @@ struct FePart {
        .help = "then about x",
        .start = StatedStart::place},
       {.name = "PHI", .slot = &FePart::phi, .unit = unit::angle, .help = "then about z", .start = StatedStart::place},
-      {.name = "AREA", .slot = &FePart::area, .required = true, .unit = "length²", .help = "of the section"},
+      {.name = "SECTION",
+       .slot = &FePart::sections,
+       .unit = "length², length⁴",
+       .help = "of each node its label, AREA, IYY, IZZ, IYZ and IXX",
+       .ends = "AREA IXX IYY IZZ IYZ"},
+      {.name = "AREA", .slot = &FePart::area, .unit = "length²", .help = "of the section"},
       {.name = "IXX", .slot = &FePart::torsion, .unit = "length⁴", .help = "of torsion; IYY + IZZ unless stated"},
-      {.name = "IYY", .slot = &FePart::yy, .required = true, .unit = "length⁴", .help = "integral of z²"},
-      {.name = "IZZ", .slot = &FePart::zz, .required = true, .unit = "length⁴", .help = "integral of y²"},
+      {.name = "IYY", .slot = &FePart::yy, .unit = "length⁴", .help = "integral of z²"},
+      {.name = "IZZ", .slot = &FePart::zz, .unit = "length⁴", .help = "integral of y²"},
       {.name = "IYZ", .slot = &FePart::yz, .unit = "length⁴", .help = "integral of y·z; 0 unless stated"},
       {.name = "ASY", .slot = &FePart::shear_y, .help = "area by that which carries shear along y; 1.2 unless stated"},
       {.name = "ASZ", .slot = &FePart::shear_z, .help = "the same along z"},
+      {.name = "CRATIOK",
+       .slot = &FePart::damping,
+       .unit = "time",
+       .minimum = 0,
+       .help = "damping by stiffness: stresses of strain rates; 0 unless stated",
+       .ends = "CRATIO"},
       {.name = "CRATIO",
        .slot = &FePart::damping,
        .unit = "time",
        .minimum = 0,
-       .help = "damping by stiffness: stresses of strain rates; 0 unless stated"},
+       .help = "the same as CRATIOK",
+       .ends = "CRATIOK"},
+      {.name = "CRATIOM",
+       .slot = &FePart::damping_by_mass,
+       .minimum = 0,
+       .help = "0: damping by mass is not available"},
       {.name = "QG",
        .slot = &FePart::origin,
        .unit = unit::length,

@@ -3,7 +3,8 @@
 //
 // A point with axes on a body. QP is its origin and REULER (3-1-3) or the points ZP, XP its axes, all in the body
 // coordinate system, or in the frame of marker RM. Without an owner it belongs to the body stated before it. On a
-// flexible body or a beam it is carried by a node, from which QP counts.
+// flexible body or a beam it is carried by a node: of a flexible body QP counts from there, of a beam it is in the body
+// coordinate system as ever.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -85,6 +86,7 @@ struct ReadMarker {
 struct NamedNode {
   std::int64_t number;
   Span at;
+  bool states_place;  // with QP, or in the frame of another marker; a floating one has none
 };
 
 // Arguments of the language that are known and missing here. They must not take abbreviations from the others.
@@ -128,7 +130,8 @@ class MarkerSet final : public TypedSet<ReadMarker> {
       reader.error("two-owners", node_at, fmt::format("{} has NODE_ID and NODE_LABEL", reader.label().text()));
     }
     elements[k].reference = m.reference;
-    if (const auto node = m.label_of_node ? m.label_of_node : m.node) nodes_.emplace(k, NamedNode{*node, node_at});
+    if (const auto node = m.label_of_node ? m.label_of_node : m.node)
+      nodes_.emplace(k, NamedNode{*node, node_at, reader.given("QP") || m.floating || m.reference.valid()});
     Marker& marker = *reader.own_marker();
     marker.floating = m.floating;
     marker.place.body = *owner, marker.place.p_BM = m.origin;
@@ -202,7 +205,7 @@ class MarkerSet final : public TypedSet<ReadMarker> {
     return found == beams.end() ? nullptr : &*found;
   }
 
-  // A node of a beam is a body of its own: QP counts from it along the axes of the BCS, and so do the axes.
+  // A node of a beam is a body of its own, which carries what is stated in the BCS with the offset that it is drawn at.
   void put_on_beam(std::size_t k, const BeamBody& beam, Model& model, Diagnostics& diagnostics) const {
     const NamedNode* named = node_of(k);
     const std::string name = labels[k].text(), owner = beam.label->text();
@@ -217,12 +220,30 @@ class MarkerSet final : public TypedSet<ReadMarker> {
                         fmt::format("its nodes are {}", fmt::join(beam.numbers, ", ")));
       return;
     }
-    MarkerPlace& place = marker_of(k, model).place;
-    place.body = beam.nodes[static_cast<std::size_t>(node - beam.numbers.begin())];
+    Marker& marker = marker_of(k, model);
+    MarkerPlace& place = marker.place;
+    const auto index = static_cast<std::size_t>(node - beam.numbers.begin());
+    place.body = beam.nodes[index];
     if (elements[k].reference.valid()) return;  // in the frame of a marker of the same node
     const Matrix3 from_bcs = transpose(model.body(place.body).pose.R) * beam.drawn.R;
-    place.p_BM = from_bcs * place.p_BM;
+    if (!marker.floating) place.p_BM = from_bcs * (place.p_BM - beam.places[index]);
     place.R_BM = from_bcs * place.R_BM;
+    if (!named->states_place) warn_of_place(k, beam, index, diagnostics);
+  }
+
+  // Who leaves QP out may mean the node.
+  void warn_of_place(std::size_t k, const BeamBody& beam, std::size_t node, Diagnostics& diagnostics) const {
+    constexpr double rounding = 1e-9;
+    const Vector& at = beam.places[node];
+    double extent = 0;
+    for (const Vector& place : beam.places) extent = std::max(extent, norm(place));
+    if (norm(at) <= rounding * extent) return;
+    diagnostics.warning(
+        "marker-off-node", labels[k].at,
+        fmt::format(
+            "{0} states no QP and is at the origin of {1}, {2:g} away from its node {3} at ({4:g}, {5:g}, {6:g})",
+            labels[k].text(), beam.label->text(), norm(at), beam.numbers[node], at.x, at.y, at.z),
+        fmt::format("QP={}, {}, {} puts it at the node, QP=0, 0, 0 says that the origin is meant", at.x, at.y, at.z));
   }
 
   // On a flexible body QP counts from the node, but for one that is placed in the frame of another marker.

@@ -20,6 +20,7 @@ struct BeamBody {
   const ElementLabel* label = nullptr;
   std::vector<BodyId> nodes;
   std::vector<std::int64_t> numbers;       // of the nodes, as written
+  std::vector<Vector> places;              // of the nodes in the BCS, undeformed
   const BeamElements* elements = nullptr;  // between neighbours
   std::optional<BeamPlane> plane;          // of a plane one
   Pose drawn;                              // BCS

@@ -12,6 +12,8 @@ constexpr Kind inert(std::string_view statement, std::string_view summary) {
 }  // namespace
 
 extern constinit const Kind femdata = inert("FEMDATA", "Output of loads for finite-element programs.");
+extern constinit const Kind section = inert("SECTION", "A section of a beam, for who draws or edits it.");
+extern constinit const Kind fe_node = inert("FE_NODE", "A node of a beam, for who draws or edits it.");
 extern constinit const Kind timgraphics = inert("TIMGRAPHICS", "Graphics over time.");
 
 }  // namespace dynalin
