@@ -55,7 +55,7 @@ struct FePart {
        .help = "labels of the nodes, from end to end; as in COORDINATES unless stated"},
       {.name = "COORDINATES",
        .slot = &FePart::coordinates,
-       .unit = "length, rad",
+       .unit = {"length, rad", true},
        .help = "of each node its label, x, y, z in the BCS and the 3-1-3 angles of its axes",
        .ends = "X Y Z PSI THETA PHI",
        .start = StatedStart::place},
