@@ -9,12 +9,17 @@
 
 #include "cases/run.h"
 #include "cases/study_of.h"
+#include "cases/written_contacts.h"
 
 namespace dynalin::cases::contact_test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using written_contacts::ball_in_cone;
+using written_contacts::ball_on_plane;
+using written_contacts::friction;
+using written_contacts::impact;
 
 const std::string head = "Contact\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
 const std::string ball =
@@ -53,8 +58,6 @@ class Contacts : public Cases {
   }
 };
 
-const std::string impact = "IMPACT, STIFFNESS=2E4, EXPONENT=1.5, DAMPING=40, DMAX=0.001";
-
 // On a slope: friction by slip holds nothing at rest, and the refusal says so.
 TEST_F(Contacts, that_only_rub_hold_nothing_at_rest) {
   const std::string slope = "GRAPHICS/1, PLANE, RM=3, XMIN=-9, XMAX=9, YMIN=-9, YMAX=9\nMARKER/3, REULER=0,10D,0\n";
@@ -74,20 +77,9 @@ TEST_F(Contacts, that_only_rub_hold_nothing_at_rest) {
 // A sphere on a plane with friction: the same wrench as a GFORCE at its centre, the friction at half the penetration.
 TEST_F(Contacts, sphere_on_plane_is_the_force_of_its_expression) {
   const std::string model = head + floor + fmt::format(fmt::runtime(ball), 0.15);
-  const std::string depth = "(0.1-DZ(2,1))", N = "IMPACT(DZ(2,1),VZ(2,1),0.1,2E4,1.5,40,0.001)";
-  // Arm from the centre down to half-way between both surfaces, (DZ + 0.1)/2, and the slip there.
-  const std::string arm = "((DZ(2,1)+0.1)/2)";
-  const std::string sx = "(VX(2,1)-WY(2,1)*" + arm + ")", sy = "(VY(2,1)+WX(2,1)*" + arm + ")";
-  const std::string mu = "(0.15*(3-(" + sx + "**2+" + sy + "**2)/0.01)/0.1)";
-  const std::string fx = "-" + mu + "*" + N + "*" + sx, fy = "-" + mu + "*" + N + "*" + sy;
-  const std::string written = "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=1\n, FX=" + fx +
-                              "\\\n, FY=" + fy + "\\\n, FZ=" + N + "\\\n, TX=" + arm + "*(" + fy + ")\\\n, TY=-" + arm +
-                              "*(" + fx + ")\\\n, TZ=0\n";
-  const std::string friction =
-      ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
-      "FRICTION_TRANSITION_VELOCITY=1\n";
-  expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=1, " + impact + "\n" + friction), at_rest(model + written));
-  expect_same(at_rest(model + "CONTACT/1, IGEOM=1, JGEOM=2, " + impact + "\n" + friction), at_rest(model + written));
+  const std::string law = ", " + impact + friction;
+  expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=1" + law), at_rest(model + ball_on_plane()));
+  expect_same(at_rest(model + "CONTACT/1, IGEOM=1, JGEOM=2" + law), at_rest(model + ball_on_plane()));
 }
 
 // Beyond the stiction velocity the coefficient falls by STEP from the static to the dynamic one.
@@ -99,43 +91,28 @@ TEST_F(Contacts, friction_of_a_sliding_sphere_is_the_force_of_its_expression) {
                                   "VY={1}, VZ=-0.01\nMARKER/2\n"
                                   "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n",
                                   speed * 0.8, speed * 0.6);
-    const std::string N = "IMPACT(DZ(2,1),VZ(2,1),0.1,2E4,1.5,40,0.001)", arm = "((DZ(2,1)+0.1)/2)";
-    const std::string sx = "(VX(2,1)-WY(2,1)*" + arm + ")", sy = "(VY(2,1)+WX(2,1)*" + arm + ")";
-    const std::string v = "SQRT(" + sx + "**2+" + sy + "**2)";
-    const std::string along = "STEP(" + v + ",0.1,0.3,1,0.1)*" + N + "/" + v;
-    const std::string fx = "-" + along + "*" + sx, fy = "-" + along + "*" + sy;
-    const std::string written = "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=1\n, FX=" + fx +
-                                "\\\n, FY=" + fy + "\\\n, FZ=" + N + "\\\n, TX=" + arm + "*(" + fy + ")\\\n, TY=-" +
-                                arm + "*(" + fx + ")\\\n, TZ=0\n";
-    const std::string contact = "CONTACT/1, IGEOM=2, JGEOM=1, " + impact +
-                                "\n, COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, "
-                                "STICTION_TRANSITION_VELOCITY=0.1, FRICTION_TRANSITION_VELOCITY=1\n";
-    expect_same(where_it_starts(model + contact), where_it_starts(model + written));
+    expect_same(where_it_starts(model + "CONTACT/1, IGEOM=2, JGEOM=1, " + impact + friction),
+                where_it_starts(model + ball_on_plane()));
   }
 }
 
-// A ball in a cone whose axis lies level rests on the lowest line, where the distance from the mantle is (r − z tan α)
-// cos α: the same as a force between the ball and a point that slides along the axis.
+// A ball in a cone: the same as a force between the ball and a point that slides along the axis. Where that lies level
+// it rests on the lowest line, where it stands upright it runs around.
 TEST_F(Contacts, sphere_in_a_cone_is_the_force_of_its_distance) {
-  const std::string model = head + fmt::format(fmt::runtime(ball), -0.3) +
+  const std::string contact = "CONTACT/1, IGEOM=2, JGEOM=9, JFLIP_GEOMETRY=9, " + impact + "\n",
+                    // The contact without friction leaves it to turn.
+      turned = "BUSHING/9, I=2, J=9, K=0,0,0, KT=1,2,3, C=0,0,0, CT=0,0,0\n";
+  const std::string level = head + fmt::format(fmt::runtime(ball), -0.3) + turned +
                             "MARKER/9, PART=1, QP=-1,0,0, REULER=90D,90D,0\n"
                             "GRAPHICS/9, FRUSTUM, CM=9, LENGTH=3, BOTTOM=0.4, TOP=0.6\n"
                             // Held along the axis, which it would roll down.
-                            "MARKER/4, PART=2\nJPRIM/1, INPLANE, I=4, J=9\n"
-                            // The contact without friction leaves it to turn.
-                            "BUSHING/9, I=2, J=9, K=0,0,0, KT=1,2,3, C=0,0,0, CT=0,0,0\n";
-  const std::string radius = "SQRT(DX(2,9,9)**2+DY(2,9,9)**2)";
-  const double slope = 0.2 / 3, cosine = 1 / std::sqrt(1 + slope * slope);
-  const std::string gap = fmt::format("((0.4+{:.17g}*DZ(2,9,9)-{})*{:.17g})", slope, radius, cosine);
-  const std::string rate =
-      fmt::format("(({:.17g}*VZ(2,9,9)-(DX(2,9,9)*VX(2,9,9)+DY(2,9,9)*VY(2,9,9))/{})*{:.17g})", slope, radius, cosine);
-  const std::string N = "IMPACT(" + gap + "," + rate + ",0.1,2E4,1.5,40,0.001)";
-  const std::string written = fmt::format(
-      "MARKER/3, PART=1, FLOATING\nGFORCE/1, I=2, JFLOAT=3, RM=9\n, FX=-{1}*{0:.17g}*DX(2,9,9)/{2}\\\n"
-      ", FY=-{1}*{0:.17g}*DY(2,9,9)/{2}\\\n, FZ={1}*{3:.17g}\\\n, TX=0\\\n, TY=0\\\n, TZ=0\n",
-      cosine, N, radius, slope * cosine);
-  expect_same(at_rest(model + "CONTACT/1, IGEOM=2, JGEOM=9, JFLIP_GEOMETRY=9, " + impact + "\n"),
-              at_rest(model + written));
+                            "MARKER/4, PART=2\nJPRIM/1, INPLANE, I=4, J=9\n";
+  expect_same(at_rest(level + contact), at_rest(level + ball_in_cone(0.4, 0.2 / 3)));
+  const std::string upright = head +
+                              "PART/2, MASS=2, CM=2, IP=0.008,0.008,0.008, QG=0.6,0,0.45, VY=2, VZ=0.1\nMARKER/2\n"
+                              "GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2\n" +
+                              turned + "MARKER/9, PART=1\nGRAPHICS/9, FRUSTUM, CM=9, LENGTH=1, BOTTOM=0.1, TOP=1.6\n";
+  expect_same(where_it_starts(upright + contact), where_it_starts(upright + ball_in_cone(0.1, 1.5)));
 }
 
 // A cylinder that lies on a plane and rocks on its rims: two forces at the lowest points.

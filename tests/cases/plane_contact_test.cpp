@@ -9,85 +9,29 @@
 
 #include "cases/run.h"
 #include "cases/study_of.h"
+#include "cases/written_contacts.h"
 
 namespace dynalin::cases::plane_contact_test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using written_contacts::body;
+using written_contacts::circle;
+using written_contacts::friction;
+using written_contacts::impact;
+using written_contacts::place;
+using written_contacts::rail;
+using written_contacts::tread;
 
 const std::string head = "Plane contact\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-10\nPART/1, GROUND\nMARKER/1\n";
-// Matter below: from the right to the left. A cubic, 0.2 x² − 0.1 x³.
-const std::string rail =
-    "MATRIX/1, FULL=RORDER, ROWS=5, COLUMNS=3, VALUES=1,0.1,0, 0.5,0.0375,0, 0,0,0, -0.5,0.0625,0, -1,0.3,0\n"
-    "CURVE/1, OPEN, MATRIX=1, CURVE_POINTS\nGRAPHICS/1, CURVE, CID=1, CRM=1\n";
 // A tread and a flange, matter above: from the left to the right.
 const std::string profile =
     "MATRIX/2, FULL=RORDER, ROWS=6, COLUMNS=3\n"
     ", VALUES=-0.5,0.25,0, -0.3,0.03,0, -0.1,-0.02,0, 0.1,0.01,0, 0.3,0.06,0, 0.5,0.2,0\n"
     "CURVE/2, OPEN, MATRIX=2, CURVE_POINTS\n";
-const std::string impact = "IMPACT, STIFFNESS=2E4, EXPONENT=1.5, DAMPING=40, DMAX=0.001";
-const std::string friction =
-    ", COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.1, STICTION_TRANSITION_VELOCITY=0.1, "
-    "FRICTION_TRANSITION_VELOCITY=1\n";
-
-std::string body(double x, double y) {
-  return fmt::format(
-      "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.15, QG={},{},0\nMARKER/2\nMARKER/3, PART=1, FLOATING\n"
-      "JOINT/1, PLANAR, I=2, J=1\n",
-      x, y);
-}
 // Held in place softly.
 const std::string held = "BUSHING/9, I=2, J=1, K=300,0,0, KT=0,0,20, C=3,0,0, CT=0,0,0.2, FORCE=40,0,0\n";
-
-// The forces of one place where a curve a(u) of the body touches CURVE/1, from formulas of the language alone. a, its
-// derivative: components in the axes of the body; u and v begin near their values. `n` numbers what it needs.
-std::string place(int n, const std::array<std::string, 4>& curve, double u, double v, bool rubs, bool point = false) {
-  const int at = 10 * n;
-  const auto var = [&](int k) { return fmt::format("VARVAL({})", at + k); };
-  const std::string U = fmt::format("DIF({})", at + 1), V = fmt::format("DIF({})", at + 2);
-  const std::string c = "COS(AZ(2,1))", s = "SIN(AZ(2,1))";
-  const auto with_u = [&](const std::string& f) { return fmt::format(fmt::runtime(f), fmt::arg("u", U)); };
-  const auto turned = [&](const std::string& x, const std::string& y) {
-    return std::array{fmt::format("({})*{}-({})*{}", with_u(x), c, with_u(y), s),
-                      fmt::format("({})*{}+({})*{}", with_u(x), s, with_u(y), c)};
-  };
-  const auto a = turned(curve[0], curve[1]), t = turned(curve[2], curve[3]);
-  const auto b = [&](int d, int k) { return fmt::format("CURVE({},{},{},1)", V, d, k); };
-  std::string text;
-  const auto define = [&](int k, const std::string& e) {
-    text += fmt::format("VARIABLE/{}, FUNCTION={}\n", at + k, e);
-  };
-  define(1, "DX(2,1)+" + a[0]), define(2, "DY(2,1)+" + a[1]);
-  // The direction out of the matter below, and the gap along it.
-  const std::string size = fmt::format("SQRT({0}**2+{1}**2)", b(1, 1), b(1, 2));
-  define(3, fmt::format("{}/{}", b(1, 2), size)), define(4, fmt::format("-{}/{}", b(1, 1), size));
-  define(5, fmt::format("({}-{})*{}+({}-{})*{}", var(1), b(0, 1), var(3), var(2), b(0, 2), var(4)));
-  // The arm of the point half-way between.
-  define(6, fmt::format("({}+{})/2-DX(2,1)", var(1), b(0, 1)));
-  define(7, fmt::format("({}+{})/2-DY(2,1)", var(2), b(0, 2)));
-  define(8, fmt::format("VX(2,1)-WZ(2,1)*{}", var(7))), define(9, fmt::format("VY(2,1)+WZ(2,1)*{}", var(6)));
-  define(100, fmt::format("IMPACT({0},{1}*{2}+{3}*{4},0,2E4,1.5,40,0.001)", var(5), var(8), var(3), var(9), var(4)));
-  // Along (n_y, −n_x).
-  define(200, fmt::format("{}*{}-{}*{}", var(8), var(4), var(9), var(3)));
-  const std::string slope = fmt::format("(0.15*(3-{0}**2/0.01)/0.1)", var(200));
-  define(300, rubs ? fmt::format("-{}*{}*{}", slope, var(100), var(200)) : "0");
-  if (!point) {
-    text +=
-        fmt::format("DIFF/{}, IMPLICIT, IC={}, FUNCTION=({})*{}-({})*{}\n", at + 1, u, t[0], b(1, 2), t[1], b(1, 1));
-  }
-  text += fmt::format("DIFF/{}, IMPLICIT, IC={}, FUNCTION=({}-{})*{}+({}-{})*{}\n", at + 2, v, var(1), b(0, 1), b(1, 1),
-                      var(2), b(0, 2), b(1, 2));
-  const std::string fx = fmt::format("({0}*{1}+{2}*{3})", var(100), var(3), var(300), var(4));
-  const std::string fy = fmt::format("({0}*{1}-{2}*{3})", var(100), var(4), var(300), var(3));
-  return text + fmt::format(
-                    "MARKER/{0}, PART=1, FLOATING\nGFORCE/{0}, I=2, JFLOAT={0}, RM=1, FX={1}\\\n, FY={2}\\\n, FZ=0\\\n"
-                    ", TX=0\\\n, TY=0\\\n, TZ={3}*{2}-{4}*{1}\n",
-                    at + 9, fx, fy, var(6), var(7));
-}
-const std::array<std::string, 4> circle = {"0.5*COS({u})", "0.5*SIN({u})", "-0.5*SIN({u})", "0.5*COS({u})"};
-const std::array<std::string, 4> tread = {"CURVE({u},0,1,2)", "CURVE({u},0,2,2)", "CURVE({u},1,1,2)",
-                                          "CURVE({u},1,2,2)"};
 
 class PlaneContacts : public Cases {
  protected:
@@ -134,6 +78,27 @@ TEST_F(PlaneContacts, point_on_a_curve_is_the_force_of_its_expression) {
   const std::array<std::string, 4> corner = {"0.05", "-0.2", "0", "0"};
   expect_same(at_rest(model + "GRAPHICS/2, POINT, RM=4\nCONTACT/1, IGEOM=2, JGEOM=1, " + impact + "\n" + friction),
               at_rest(model + place(2, corner, 0, -0.1, true, true)));
+}
+
+// Pressed on it ever more stiffly, a point is one that PTCV holds on the curve, and one mode more: what the curve bends
+// under the load is the same.
+TEST_F(PlaneContacts, stiff_point_on_a_curve_is_one_on_the_constraint) {
+  const std::string model = head + rail + body(0.3, 0.0153) + held;
+  const auto constrained = at_rest(model + "MARKER/8, PART=1, FLOATING\nPTCV/1, I=2, JFLOAT=8, CURVE=1, RM=1\n");
+  const auto stiff = [&](double stiffness) {
+    return at_rest(model + fmt::format("GRAPHICS/2, POINT, RM=2\nCONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS={}, "
+                                       "EXPONENT=1, DAMPING=0, DMAX=1\n",
+                                       stiffness));
+  };
+  ASSERT_EQ(constrained.size(), 4u);
+  for (const auto& [stiffness, within] : {std::pair{1e9, 1e-6}, {1e12, 1e-9}}) {
+    const auto pressed = stiff(stiffness);
+    ASSERT_EQ(pressed.size(), 6u);
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_LE(std::abs(pressed[k] - constrained[k]), within * std::abs(constrained[k])) << pressed[k];
+    const double bounce = std::sqrt(stiffness / 2) / (2 * std::numbers::pi);
+    EXPECT_NEAR(std::abs(pressed[5]), bounce, 1e-6 * bounce);
+  }
 }
 
 // A wheel wider than the valley: it stands on both sides.
