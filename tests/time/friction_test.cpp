@@ -6,6 +6,7 @@
 
 #include "places/symmetric_friction.h"
 #include "time/course.h"
+#include "time/dry_friction.h"
 #include "time/reference_integration.h"
 
 namespace dynalin::in_time {
@@ -31,22 +32,12 @@ struct Belt {
         -weight / mass, speed, mass, speed, speed, stiffness, mu_static, mu_dynamic, stiction_velocity, deformation);
   }
 
-  // Of the block, for slip u and creep z: written by cases, for one direction.
-  double friction(double u, double z) const {
-    const double v = std::abs(u) / stiction_velocity;
-    const double mu = v <= 1     ? mu_static
-                      : v >= 1.5 ? mu_dynamic
-                                 : mu_static + (mu_dynamic - mu_static) * step(2 * (v - 1));
-    const double b = odd(u / stiction_velocity), sigma = odd(z / deformation), size = std::abs(b);
-    return -mu * weight * (sigma * (1 - b * b) + b * size + b * (1 - size) * (1 - sigma * sigma));
-  }
-  double creep_rate(double u, double z) const {
-    const double left = std::abs(z) / deformation;
-    if (u * z <= 0 || left < 0.9) return u;
-    return left < 1 ? u * (1 - step(10 * (left - 0.9))) : 0.0;
-  }
-  static double step(double x) { return x * x * (3 - 2 * x); }
-  static double odd(double x) { return std::abs(x) < 1 ? x * (3 - x * x) / 2 : std::copysign(1.0, x); }
+  // Of the block, for slip u and creep z.
+  double friction(double u, double z) const { return -law().coefficient({u}) * weight * law().direction({u}, {z})[0]; }
+  double creep_rate(double u, double z) const { return law().creep_rate({u}, {z})[0]; }
+
+ private:
+  DryFriction law() const { return {mu_static, mu_dynamic, stiction_velocity, deformation}; }
 };
 
 TEST(Friction, block_on_a_belt_sticks_and_slips_like_another_integration) {
