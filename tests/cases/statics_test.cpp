@@ -236,9 +236,9 @@ TEST_F(Statics, values_are_there_before_what_reads_them) {
     EXPECT_NEAR(std::abs(r.eigenvalues(1)[0].imag()), 10 / (2 * std::numbers::pi), 0.01) << factor;
   }
   // One that has none at any value still says so.
-  const RunResult r = rest(block + force("SQRT(-VARVAL(1))") + "VARIABLE/1, FUNCTION=2\n", "KGRAV=-10");
+  const RunResult r = rest(block + force("SQRT(-1-VARVAL(1))") + "VARIABLE/1, FUNCTION=2\n", "KGRAV=-10");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("SFORCE/1: SQRT of -2"));
+  EXPECT_THAT(r.err, HasSubstr("SFORCE/1: SQRT of -3"));
 }
 
 }  // namespace

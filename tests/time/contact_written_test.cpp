@@ -7,7 +7,7 @@
 #include "cases/written_contacts.h"
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::contact_written_test {
 namespace {
 
 using namespace cases::written_contacts;
@@ -107,4 +107,4 @@ TEST(ContactMotion, a_point_pressed_on_a_curve_is_one_on_the_constraint) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::contact_written_test

@@ -8,7 +8,7 @@
 #include "time/dry_friction.h"
 #include "time/reference_integration.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::friction_joints_test {
 namespace {
 
 constexpr double mass = 2;
@@ -181,4 +181,4 @@ TEST(FrictionOfJoints, a_sleeve_slides_and_turns_against_one_friction) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::friction_joints_test
