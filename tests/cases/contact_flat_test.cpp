@@ -35,8 +35,8 @@ class ContactFlat : public ContactCases {};
 
 }  // namespace
 
-// On its face, over its edge and at its corner. Where nothing holds it along the edge, the double zero is known to roots
-// of roundings.
+// On its face, over its edge and at its corner. Where nothing holds it along the edge, the double zero is known to
+// roots of roundings.
 TEST_F(ContactFlat, an_ellipsoid_on_a_slab_of_facets_is_one_on_a_box) {
   for (const char* pose : {"QG=0.1,0.2,0.2495, VX=0.02, WY=0.1", "QG=0.1,0.2,0.25, REULER=10D,13D,20D, VX=0.02, WY=0.1",
                            "QG=1.1,0.3,0.2, REULER=0,40D,0", "QG=1.12,1.1,0.1, REULER=30D,20D,0"}) {
