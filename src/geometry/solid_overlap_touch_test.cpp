@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/moved_frame_test_support.h"
+#include "geometry/overlap_test_support.h"
 #include "geometry/overlap_touch.h"
 #include "geometry/polygon.h"
 #include "geometry/prism.h"
@@ -21,23 +22,8 @@
 namespace dynalin::solid_overlap_touch_test {
 namespace {
 
-using Seeded = Dual<12>;
+using namespace overlap_test;
 
-// An outline in the plane of x and y, swept along z.
-FacetBody swept(const std::vector<std::array<double, 2>>& outline, double low, double high) {
-  std::vector<Vector> corners;
-  for (const auto& [x, y] : outline) corners.push_back({x, y, low});
-  return FacetBody(prism(corners, Outline::closed, {0, 0, high - low}));
-}
-FacetBody angle() { return swept({{0, 0}, {1, 0}, {1, 0.3}, {0.4, 0.3}, {0.4, 0.9}, {0, 0.9}}, -0.3, 0.4); }
-FacetBody star(int points) {
-  std::vector<std::array<double, 2>> outline;
-  for (int k = 0; k < 2 * points; ++k) {
-    const double r = k % 2 == 0 ? 0.7 : 0.35, a = std::numbers::pi * k / points;
-    outline.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  return swept(outline, -0.25, 0.3);
-}
 // A floor at y = 0 with an edge turned up far away, which makes it hollow there.
 FacetBody floor_with_edge() { return swept({{-2, -0.5}, {2, -0.5}, {2, 0.5}, {1.9, 0.5}, {1.9, 0}, {-2, 0}}, -2, 2); }
 // Ribs 0.1 wide whose tops are at y = 0.
@@ -55,48 +41,12 @@ double whole(const QuadricSolid& s) {
   return std::numbers::pi / 3 * (s.height(true) - s.height(false)) * (a * a + a * b + b * b);
 }
 
-const RelativeFrame<double> upright{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 // z of the solid is y of the body.
 const RelativeFrame<double> on_end{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
 // z of the solid is x of the body.
 const RelativeFrame<double> lying{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
-RelativeFrame<double> at(const Vector& p, RelativeFrame<double> f = upright) {
-  f.p = p;
-  return f;
-}
 
-std::vector<Touch<double>> touches(const QuadricSolid& I, const RelativeFrame<double>& f, const FacetBody& J,
-                                   bool cavity = false) {
-  std::vector<Touch<double>> list(most_overlaps);
-  touch_overlaps<double>(I, f, J, cavity, list);
-  std::erase_if(list, [](const auto& t) { return !t.closed(); });
-  return list;
-}
-std::vector<Touch<Seeded>> seeded_touches(const QuadricSolid& I, const RelativeFrame<double>& f, const FacetBody& J,
-                                          bool cavity = false) {
-  const auto along = [](const Vector& v) { return Vec3<Taylor>{Taylor(v.x), Taylor(v.y), Taylor(v.z)}; };
-  const auto s = path::seeded<12>({along(f.p), along(f.x), along(f.y), along(f.z)});
-  const auto values = [](const auto& v) { return Vec3<Seeded>{v.x.value, v.y.value, v.z.value}; };
-  std::vector<Touch<Seeded>> list(most_overlaps);
-  touch_overlaps<Seeded>(I, {values(s.p), values(s.x), values(s.y), values(s.z)}, J, cavity, list);
-  std::erase_if(list, [](const auto& t) { return !t.closed(); });
-  return list;
-}
-
-void expect_near(const Vector& a, const Vector& b, double tolerance) {
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
-}
-
-class solid_overlap_touch : public ::testing::Test {
- protected:
-  RelativeFrame<double> pose(double far, const Vector& about = {}) {
-    std::normal_distribution<double> n;
-    const Matrix3 R = rotation_exponential({n(random_), n(random_), n(random_)});
-    return {about + Vector{far * n(random_), far * n(random_), far * n(random_)}, R.x, R.y, R.z};
-  }
-  int draw(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-  std::mt19937_64 random_{5};
-};
+class solid_overlap_touch : public Poses {};
 
 }  // namespace
 

@@ -88,11 +88,11 @@ TEST(OpenBoxCards, a_line_force_is_a_bush_along_its_line) {
 
 // A bushing that holds points alone has moments about mass centres, which cancel at the marker.
 TEST(OpenBoxCards, a_bush_has_what_is_soft_and_not_what_is_rounding) {
-  const Deck deck = box_of(linearization_of(
-      "PART/2, MASS=2, CM=20, IP=0.4,0.5,0.6, QG=0.1,0.2,0.3\nMARKER/20, PART=2, QP=0.2,0.1,-0.1\n"
-      "MARKER/21, PART=2, QP=0.9,0.7,0.3, REU=0.3,0.7,0.2\nMARKER/22, PART=2\n"
-      "MARKER/12, PART=1, QP=1,0.9,0.6, REU=0.3,0.7,0.2\nMARKER/13, PART=1, QP=0.1,0.2,0.3\n"
-      "BUSHING/1, I=21, J=12, K=3E6,3E-6,3E6\nBUSHING/2, I=22, J=13, K=9,9,9, KT=5E-9,5E3,5E3\n"));
+  const Deck deck = box_of(
+      linearization_of("PART/2, MASS=2, CM=20, IP=0.4,0.5,0.6, QG=0.1,0.2,0.3\nMARKER/20, PART=2, QP=0.2,0.1,-0.1\n"
+                       "MARKER/21, PART=2, QP=0.9,0.7,0.3, REU=0.3,0.7,0.2\nMARKER/22, PART=2\n"
+                       "MARKER/12, PART=1, QP=1,0.9,0.6, REU=0.3,0.7,0.2\nMARKER/13, PART=1, QP=0.1,0.2,0.3\n"
+                       "BUSHING/1, I=21, J=12, K=3E6,3E-6,3E6\nBUSHING/2, I=22, J=13, K=9,9,9, KT=5E-9,5E3,5E3\n"));
   ASSERT_EQ(deck.bushes.size(), 2u);
   EXPECT_NEAR(deck.bushes[0].stiffness[1], 3e-6, 1e-8);
   EXPECT_NEAR(deck.bushes[1].stiffness[3], 5e-9, 1e-11);

@@ -1,0 +1,81 @@
+// Bodies of facets that are not convex, poses, and touches in volumes in common, of facets and of solids alike.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "geometry/overlap_touch.h"
+#include "geometry/polygon.h"
+#include "geometry/prism.h"
+
+namespace dynalin::overlap_test {
+
+using Seeded = Dual<12>;
+
+// An outline in the plane of x and y, swept along z.
+inline FacetBody swept(const std::vector<std::array<double, 2>>& outline, double low, double high) {
+  std::vector<Vector> corners;
+  for (const auto& [x, y] : outline) corners.push_back({x, y, low});
+  return FacetBody(prism(corners, Outline::closed, {0, 0, high - low}));
+}
+inline FacetBody angle() { return swept({{0, 0}, {1, 0}, {1, 0.3}, {0.4, 0.3}, {0.4, 0.9}, {0, 0.9}}, -0.3, 0.4); }
+inline FacetBody star(int points) {
+  std::vector<std::array<double, 2>> outline;
+  for (int k = 0; k < 2 * points; ++k) {
+    const double r = k % 2 == 0 ? 0.7 : 0.35, a = std::numbers::pi * k / points;
+    outline.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return swept(outline, -0.25, 0.3);
+}
+
+inline const RelativeFrame<double> upright{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+inline RelativeFrame<double> at(const Vector& p, RelativeFrame<double> f = upright) {
+  f.p = p;
+  return f;
+}
+
+// Those that are closed. `I` is a body of facets or a solid, whose touch_overlaps the caller includes.
+template <class Body>
+std::vector<Touch<double>> touches(const Body& I, const RelativeFrame<double>& f, const FacetBody& J,
+                                   bool cavity = false) {
+  std::vector<Touch<double>> list(most_overlaps);
+  touch_overlaps<double>(I, f, J, cavity, list);
+  std::erase_if(list, [](const auto& t) { return !t.closed(); });
+  return list;
+}
+// The same with their derivatives.
+template <class Body>
+std::vector<Touch<Seeded>> seeded_touches(const Body& I, const RelativeFrame<double>& f, const FacetBody& J,
+                                          bool cavity = false) {
+  const auto along = [](const Vector& v) { return Vec3<Taylor>{Taylor(v.x), Taylor(v.y), Taylor(v.z)}; };
+  const auto s = path::seeded<12>({along(f.p), along(f.x), along(f.y), along(f.z)});
+  const auto values = [](const auto& v) { return Vec3<Seeded>{v.x.value, v.y.value, v.z.value}; };
+  std::vector<Touch<Seeded>> list(most_overlaps);
+  touch_overlaps<Seeded>(I, {values(s.p), values(s.x), values(s.y), values(s.z)}, J, cavity, list);
+  std::erase_if(list, [](const auto& t) { return !t.closed(); });
+  return list;
+}
+
+inline void expect_near(const Vector& a, const Vector& b, double tolerance) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
+}
+
+// Poses by chance, the same in every run.
+class Poses : public ::testing::Test {
+ protected:
+  RelativeFrame<double> pose(double far, const Vector& about = {}) {
+    std::normal_distribution<double> n;
+    const Matrix3 R = rotation_exponential({n(random_), n(random_), n(random_)});
+    return {about + Vector{far * n(random_), far * n(random_), far * n(random_)}, R.x, R.y, R.z};
+  }
+  int draw(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  std::mt19937_64 random_{5};
+};
+
+}  // namespace dynalin::overlap_test
