@@ -17,6 +17,31 @@ Mat inertia_of(const Flexible::Node& node) {
            Vec{-static_cast<Real>(j[4]), -static_cast<Real>(j[5]), j[2]}}};
 }
 
+Real lowest_frequency(const Flexible& f) {
+  std::array<std::array<Real, 3>, 3> mass{};
+  for (const Flexible::Node& n : f.nodes) {
+    const Mat J = inertia_of(n);
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c)
+        mass[r][c] +=
+            n.mass * dot(to_vec(n.shift[r]), to_vec(n.shift[c])) + dot(to_vec(n.turn[r]), J * to_vec(n.turn[c]));
+    }
+  }
+  // Of M⁻¹K inverse iteration finds the smallest: K⁻¹M by powers.
+  const auto row = [](const auto& a, std::size_t r) { return Vec{a[r][0], a[r][1], a[r][2]}; };
+  const Vec k0 = row(f.stiffness, 0), k1 = row(f.stiffness, 1), k2 = row(f.stiffness, 2);
+  const Real determinant = dot(k0, cross(k1, k2));
+  Vec q{1, 0.7, 0.4};
+  Real size = 0;
+  for (int step = 0; step < 200; ++step) {
+    const Vec p{dot(row(mass, 0), q), dot(row(mass, 1), q), dot(row(mass, 2), q)};
+    const Vec next = (1 / determinant) * (p.x * cross(k1, k2) + p.y * cross(k2, k0) + p.z * cross(k0, k1));
+    size = norm(next);
+    q = (1 / size) * next;
+  }
+  return 1 / std::sqrt(size);
+}
+
 namespace {
 
 Vec sum_of(const std::array<Triple, 3>& by_mode, const Vec& q) {

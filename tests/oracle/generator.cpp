@@ -194,11 +194,12 @@ void Draw::draw_tree() {
     parents.push_back(child);
     if (mobility() < 10 && chance(0.06)) continue;  // free, held by springs alone
     const double r = uniform(0, 1);
-    const JointType type = r < 0.3    ? JointType::revolute
-                           : r < 0.36 ? JointType::spherical
-                           : r < 0.42 ? JointType::universal
-                           : r < 0.54 ? JointType::translational
-                           : r < 0.57 ? JointType::fixed
+    const JointType type = rubbing_ >= 0 && k == 0 ? wanted_joint()
+                           : r < 0.3               ? JointType::revolute
+                           : r < 0.36              ? JointType::spherical
+                           : r < 0.42              ? JointType::universal
+                           : r < 0.54              ? JointType::translational
+                           : r < 0.57              ? JointType::fixed
                                       : static_cast<JointType>(static_cast<int>(JointType::cylindrical) + pick(14));
     if (chance(0.5)) {
       connect(child, parent, type);
@@ -275,7 +276,8 @@ void Draw::draw_velocities() {
   const Stated free{std::vector<bool>(model.bodies.size(), false), std::vector<bool>(model.bodies.size(), false)};
   for (std::size_t b = 1; b < model.bodies.size(); ++b) {
     model.motion[b].v = box(model.bodies[b].ref.kind < BodyKind::beam_slope ? 1.5 * L_ : 1);
-    model.motion[b].w = model.bodies[b].dof == 6 ? box(2.5) : Vec{};
+    const bool spins = must_spin_ && model.bodies[b].ref.kind == BodyKind::flexible_frame;
+    model.motion[b].w = model.bodies[b].dof == 6 ? box(spins ? 5 : 2.5) : Vec{};
   }
   model.update_velocities();
   complete_velocities(model, free);
@@ -293,6 +295,10 @@ void Draw::draw_velocities() {
   }
   here_.emplace(m_);
   place(*here_, drawn_point(m_));
+  if (!must_spin_) return;
+  const Flexible& f = m_.flexibles[0];
+  if (norm(here_->motion[static_cast<std::size_t>(here_->body_index(f.frame()))].w) < 0.5L * lowest_frequency(f))
+    throw std::runtime_error("the seed wants a faster spin");
 }
 
 Mechanism Draw::mechanism() {

@@ -28,7 +28,7 @@ void Draw::draw_flexible() {
       n.shift[mode] = to_triple(box(0.8)), n.turn[mode] = to_triple(box(0.8 / L_));
     f.nodes.push_back(n);
   }
-  const double k = F_ / L_;
+  const double k = F_ / L_ * (must_spin_ ? 0.3 : 1);
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c <= r; ++c) {
       f.stiffness[r][c] = f.stiffness[c][r] = r == c ? k * uniform(8, 40) : k * uniform(-2, 2);

@@ -37,6 +37,29 @@ bool nearly_jams(const Mechanism& mechanism, double length) {
 
 }  // namespace
 
+void Draw::rub_as_wanted(Friction& f, double speed) {
+  if (speed < 0.01 * L_) throw std::runtime_error("the seed wants a joint that slips");
+  const RubRegime regime = wanted_regime();
+  f.effect = 0, f.inputs = 15;
+  f.lugre = regime == RubRegime::lugre;
+  f.bristles = f.mu_static / f.deformation;
+  switch (regime) {
+    case RubRegime::stiction:
+      f.velocity = speed * uniform(1.3, 4);
+      break;
+    case RubRegime::transition:
+      f.velocity = speed / (1 + (f.ratio - 1) * uniform(0.3, 0.7));
+      break;
+    case RubRegime::sliding:
+      f.velocity = speed / (f.ratio * uniform(1.3, 3));
+      break;
+    case RubRegime::lugre:
+      f.velocity = speed * uniform(0.4, 0.8);
+      f.bristle_damping = uniform(0.03, 0.1) / L_, f.viscosity = uniform(0.03, 0.1) / L_;
+      break;
+  }
+}
+
 void Draw::draw_frictions() {
   if (!may_rub_) return;
   std::swap(random_, friction_random_);
@@ -49,7 +72,8 @@ void Draw::draw_frictions() {
     // Friction of a ball turns what it holds.
     const bool turns_point = joint.type == spherical && (body_of(joint.i).kind == BodyKind::point_mass ||
                                                          body_of(joint.j).kind == BodyKind::point_mass);
-    if (!rubs || driven || turns_point || m_.frictions.size() > 1 || !chance(0.5)) continue;
+    const bool wanted = rubbing_ >= 0 && joint.id == 1;
+    if (!rubs || driven || turns_point || m_.frictions.size() > 1 || !(chance(0.5) || wanted)) continue;
     Friction f;
     f.id = static_cast<int>(m_.frictions.size()) + 1;
     f.joint = joint.id;
@@ -80,6 +104,7 @@ void Draw::draw_frictions() {
       f.bristles = f.mu_static / f.deformation, f.velocity = L_ * uniform(0.3, 2);
       f.bristle_damping = uniform(0, 0.1) / L_, f.viscosity = uniform(0, 0.1) / L_;
     }
+    if (wanted) rub_as_wanted(f, speed);
     m_.frictions.push_back(f);
   }
   for (int attempt = 0; !m_.frictions.empty() && nearly_jams(m_, L_); ++attempt) {
@@ -90,6 +115,8 @@ void Draw::draw_frictions() {
         *x *= 0.3;
     }
   }
+  if (rubbing_ >= 0 && (m_.frictions.empty() || m_.frictions.front().joint != 1))
+    throw std::runtime_error("the seed wants friction in its first joint");
   if (!m_.frictions.empty()) {
     const Friction& f = m_.frictions.back();
     const JointType type = m_.joints[static_cast<std::size_t>(f.joint - 1)].type;
