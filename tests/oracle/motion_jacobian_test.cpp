@@ -148,7 +148,7 @@ void examine(const NamedModel& model, Tally& tally) {
 // step, and a film at rest about its middle is stiffer by what it moves, either way.
 void expect_nearly_all(const Tally& tally, int models) {
   EXPECT_GE(tally.models, models);
-  EXPECT_LE(static_cast<double>(tally.blunt), 4e-4 * static_cast<double>(tally.entries)) << tally.where;
+  EXPECT_LE(static_cast<double>(tally.blunt), 5e-4 * static_cast<double>(tally.entries)) << tally.where;
 }
 
 TEST(MotionJacobian, is_exact_for_shipped_models) {

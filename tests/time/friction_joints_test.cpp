@@ -176,7 +176,8 @@ TEST(FrictionOfJoints, a_sleeve_slides_and_turns_against_one_friction) {
     expect_passed(law, slip(expected.front()), slip(expected.back()), torn);
     expect_course(c, 1, expected, 0, 1e-6);
     expect_course(c, 2, expected, 1, 1e-6);
-    expect_course(c, 3, expected, 2, 1e-5);
+    // Of 15; stuck it swings on its bristles, whose phase adds up what steps are off.
+    expect_course(c, 3, expected, 2, 5e-4);
   }
 }
 
