@@ -33,6 +33,10 @@ struct Meeting {
 enum class RubRegime { stiction, transition, sliding, lugre };
 inline constexpr std::array rubbing_joints = {JointType::translational, JointType::revolute,  JointType::cylindrical,
                                               JointType::hooke,         JointType::universal, JointType::spherical};
+// Of 331 to 354, one for each joint in each regime. Of a CYLINDRICAL joint hardly any draw is acceptable, and sharp
+// enough for differences.
+inline constexpr std::array<std::uint64_t, 20> seeds_of_friction = {331, 332, 334, 335, 336, 337, 338, 340, 341, 342,
+                                                                    343, 344, 346, 347, 348, 349, 350, 352, 353, 354};
 
 // Nodes of a flexible body are one to the program.
 [[nodiscard]] inline bool are_one_body(const BodyRef& a, const BodyRef& b) {
@@ -54,13 +58,13 @@ class Draw {
         must_touch_(seed > 220 && seed <= 240),
         must_bend_(seed > 240 && seed <= 260),
         must_call_(seed > 260 && seed <= 270),
-        must_deform_((seed > 270 && seed <= 280) || (seed > 354 && seed <= 360)),
+        must_deform_((seed > 270 && seed <= 280) || (seed > 354 && seed < 360)),
         plane_(seed > 280 && seed <= 290 ? static_cast<BeamPlane>(1 + seed % 3) : BeamPlane::none),
         meeting_(seed > 290 && seed <= 310 ? static_cast<int>((seed - 291) % 10) : -1),
         must_ride_(seed > 310 && seed <= 320),
         must_float_(seed > 320 && seed <= 330),
         rubbing_(seed > 330 && seed <= 354 ? static_cast<int>(seed - 331) : -1),
-        must_spin_(seed > 354 && seed <= 360),
+        must_spin_(seed > 354 && seed < 360),
         may_rub_(seed % 2 == 0 || rubbing_ >= 0) {}
   [[nodiscard]] Mechanism mechanism();
 
@@ -215,13 +219,13 @@ class Draw {
   bool must_touch_ = false;            // shapes, from 221 to 240
   bool must_bend_ = false;             // a beam, from 241 to 260
   bool must_call_ = false;             // compiled routines, from 261 to 270
-  bool must_deform_ = false;           // a flexible body, from 271 to 280 and from 355 to 360
+  bool must_deform_ = false;           // a flexible body, from 271 to 280 and from 355 to 359
   BeamPlane plane_ = BeamPlane::none;  // of a beam, from 281 to 290: each in turn
   int meeting_ = -1;                   // the first of four pairs of solids, from 291 to 310
   bool must_ride_ = false;             // an axis along a curve, from 311 to 320
   bool must_float_ = false;            // a shaft on a film, from 321 to 330
   int rubbing_ = -1;                   // which joint rubs in which regime, from 331 to 354
-  bool must_spin_ = false;             // a flexible body as fast as it vibrates, from 355 to 360
+  bool must_spin_ = false;             // a flexible body as fast as it vibrates, from 355 to 359
   bool may_rub_ = false;               // every second seed
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force

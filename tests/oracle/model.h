@@ -147,7 +147,6 @@ class Model {
     Real lever = 1, speed = 0;
   };
   [[nodiscard]] std::vector<Slip> slips(const Friction& friction) const;
-  [[nodiscard]] Wrench joint_wrench(int joint) const;  // what it exerts on I, by its number in the mechanism
   // Sizes of the reaction: force across and along the axis, moment across and along it.
   [[nodiscard]] std::array<Real, 4> pressing(const Friction& friction) const;
   // A place of a CONTACT, global axes: the normal out of J, I's material seen from J's half-way between.
@@ -238,6 +237,7 @@ class Model {
   [[nodiscard]] TouchPlace place_of_ball(const Touch& touch, const MarkerMotion& i, const MarkerMotion& j) const;
   [[nodiscard]] TouchState touch_state(const Touch& touch, const TouchPlace& place) const;
   [[nodiscard]] std::vector<Real> creep_rates(std::size_t k) const;
+  [[nodiscard]] Wrench joint_wrench(int joint) const;
   [[nodiscard]] Wrench motion_wrench(int motion) const;
   [[nodiscard]] Wrench contact_wrench(std::size_t k) const;  // torque about the point of contact
   [[nodiscard]] Wrench net_wrench(int i, int j) const;  // on marker i, from all that acts between i and j; j 0: all
