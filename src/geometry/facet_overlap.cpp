@@ -102,8 +102,8 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
   const RelativeFrame<double> own{{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto pairs = near_pairs(I, f, J);
   for (const double times : {1.0, -7.0, 53.0}) {
-    RelativeFrame<double> beside = f;
-    beside.p += (times * far_aside * size) * shift_aside;
+    const Vector aside = (times * far_aside * size) * shift_aside;
+    const RelativeFrame<double> beside{f.p + aside, f.x, f.y, f.z};
     const PlacedSurface placed_I(I, beside, false), placed_J(J, own, cavity);
     const SurfaceArrangement crossing = arrangement(placed_I, placed_J, pairs);
     found.definite = crossing.consistent;
@@ -111,6 +111,7 @@ Overlaps find_overlaps(const FacetBody& I, const RelativeFrame<double>& f, const
     found.engulfed =
         engulfs(crossing, true, I, beside, J, cavity) || engulfs(crossing, false, J, seen_back(beside), I, false);
     found.volumes = integrals(crossing.pieces, placed_I, placed_J, size);
+    found.aside = aside;
     return found;
   }
   return found;

@@ -40,6 +40,7 @@ struct Overlap {
 
 struct Overlaps {
   std::vector<Overlap> volumes;
+  Vector aside{};         // I stood that far from where it is, next to nothing, so that no edge lies in a facet
   bool engulfed = false;  // a part of one body is wholly in the other
   bool definite = true;   // false: roundings leave open where surfaces cross
 };

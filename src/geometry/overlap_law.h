@@ -265,6 +265,37 @@ Touch<T> touch_in(const Overlap& o, const PlacedFacets<T>& J, const Nudge<T>& nu
   return t;
 }
 
+// Where I stands when its volumes are looked at.
+template <class T>
+RelativeFrame<T> aside(const RelativeFrame<T>& f, const Vector& way) {
+  return {f.p + way, f.x, f.y, f.z};
+}
+// The same, moving: derivatives are what the whole way makes of a touch.
+template <class T>
+RelativeFrame<Dual<1>> along_the_way(const RelativeFrame<T>& f, const Vector& way) {
+  const RelativeFrame<double> at = plain(f);
+  const auto moving = [](double value, double rate) {
+    Dual<1> x(value);
+    x.partial[0] = rate;
+    return x;
+  };
+  const auto still = [](const Vector& v) { return Vec3<Dual<1>>{v.x, v.y, v.z}; };
+  return {{moving(at.p.x + way.x, way.x), moving(at.p.y + way.y, way.y), moving(at.p.z + way.z, way.z)},
+          still(at.x),
+          still(at.y),
+          still(at.z)};
+}
+// A touch back from there to where I is, to first order; what is hardly deeper than the way stays.
+template <class T>
+Touch<T> back(Touch<T> t, const Touch<Dual<1>>& along) {
+  constexpr double hardly_deeper = 1e-3;
+  if (!t.defined || !(std::abs(along.gap.partial[0]) < hardly_deeper * std::abs(along.gap.value))) return t;
+  const auto way = [](const Vec3<Dual<1>>& v) { return Vector{v.x.partial[0], v.y.partial[0], v.z.partial[0]}; };
+  t.gap = t.gap - along.gap.partial[0];
+  t.normal = t.normal - way(along.normal), t.point = t.point - way(along.point);
+  return t;
+}
+
 // Nothing has touched yet, or what has cannot be told.
 template <class T>
 void fill_apart(double size, bool undefined, std::span<Touch<T>> out) {

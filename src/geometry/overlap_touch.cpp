@@ -48,9 +48,11 @@ void touch_overlaps(const FacetBody& I_body, const RelativeFrame<T>& I_from_J, c
   fill_apart(I_body.radius() + J_body.radius(), undefined, out);
   if (undefined) return;
   if (found.volumes.empty()) out[0].gap = T(least_distance(I_body, f, J_body));
-  const PlacedFacets<T> I{I_body, I_from_J, 1}, J = standing<T>(J_body, cavity);
+  const PlacedFacets<T> I{I_body, aside(I_from_J, found.aside), 1}, J = standing<T>(J_body, cavity);
+  const PlacedFacets<Dual<1>> moving{I_body, along_the_way(I_from_J, found.aside), 1},
+      still = standing<Dual<1>>(J_body, cavity);
   touch_each(
-      found.volumes, [&](const Overlap& o) { return touch_of(o, I, J); }, out);
+      found.volumes, [&](const Overlap& o) { return back(touch_of(o, I, J), touch_of(o, moving, still)); }, out);
 }
 
 FacetBody facets_of_box(const Vector& low, const Vector& high) {

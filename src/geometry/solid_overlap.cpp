@@ -125,12 +125,14 @@ SolidOverlaps find_overlaps(const QuadricSolid& solid, const RelativeFrame<doubl
                             bool cavity) {
   const double size = solid.size() + J.radius();
   for (const double times : {1.0, -7.0, 53.0}) {
-    RelativeFrame<double> moved = f;
-    moved.p += (times * beside * size) * beside_way;
+    const Vector aside = (times * beside * size) * beside_way;
+    const RelativeFrame<double> moved{f.p + aside, f.x, f.y, f.z};
     const PlacedSurface surface(J, seen_back(moved), cavity);
     SolidCrossings crossings(solid, surface, near_triangles(solid, moved, J));
     SolidOverlaps found;
-    if (find_volumes(crossings, solid, moved, J, cavity, found)) return found;
+    if (!find_volumes(crossings, solid, moved, J, cavity, found)) continue;
+    found.aside = aside;
+    return found;
   }
   SolidOverlaps none;
   none.definite = false;

@@ -18,6 +18,7 @@ struct SolidOverlap : Overlap {
 
 struct SolidOverlaps {
   std::vector<SolidOverlap> volumes;
+  Vector aside{};         // see Overlaps
   bool engulfed = false;  // the solid, or a part of the body, is wholly in the other
   bool definite = true;   // false: roundings leave open where surfaces cross
 };

@@ -152,10 +152,12 @@ void touch_overlaps(const QuadricSolid& solid, const RelativeFrame<T>& I_from_J,
   fill_apart(solid.size() + J_body.radius(), undefined, out);
   if (undefined) return;
   if (found.volumes.empty()) out[0].gap = T(least_distance(solid, f, J_body));
-  const PlacedSolid<T> I{solid, I_from_J};
+  const PlacedSolid<T> I{solid, aside(I_from_J, found.aside)};
+  const PlacedSolid<Dual<1>> moving{solid, along_the_way(I_from_J, found.aside)};
   const PlacedFacets<T> J = standing<T>(J_body, cavity);
+  const auto still = standing<Dual<1>>(J_body, cavity);
   touch_each(
-      found.volumes, [&](const SolidOverlap& o) { return touch_of(o, I, J); }, out);
+      found.volumes, [&](const SolidOverlap& o) { return back(touch_of(o, I, J), touch_of(o, moving, still)); }, out);
 }
 
 template void touch_overlaps(const QuadricSolid&, const RelativeFrame<double>&, const FacetBody&, bool,

@@ -62,12 +62,17 @@ TEST_F(ContactSolidVolumes, a_drum_lies_on_its_mantle) {
   constexpr double r = 0.2, length = 0.6;
   const double half = std::acos(1 - depth / r), w = 2 * r * std::sin(half),
                area = r * r * (half - std::sin(half) * std::cos(half)), above = w * w * w / 12 / area;
-  const auto v = values(hollow_slab + part("QG=0.1,0.3,0.198, REULER=90D,90D,0", drum) + contact(elastic));
-  ASSERT_EQ(v.size(), 12u);
-  for (std::size_t n = 0; n < 8; ++n) EXPECT_LE(std::abs(v[n]), 1e-4) << n;
-  // It lies along x, its own z; it rocks about y, its own x or −x.
-  EXPECT_NEAR(std::abs(v[9]), cycles(m * g * (w * length * length / 12 / area - above) / 0.1), 1e-5);
-  EXPECT_NEAR(std::abs(v[11]), cycles(k / m), 1e-6);
+  // Where it is drawn at rest it stays, though a push next to none would roll it away, and from above it comes there.
+  for (const std::string at : {"0.198", "0.1981"}) {
+    SCOPED_TRACE(at);
+    const auto v = values(hollow_slab + part("QG=0.1,0.3," + at + ", REULER=90D,90D,0", drum) + contact(elastic),
+                          "SIMULATE/STATICS\n");
+    ASSERT_EQ(v.size(), 12u);
+    for (std::size_t n = 0; n < 8; ++n) EXPECT_LE(std::abs(v[n]), 1e-4) << n;
+    // It lies along x, its own z; it rocks about y, its own x or −x.
+    EXPECT_NEAR(std::abs(v[9]), cycles(m * g * (w * length * length / 12 / area - above) / 0.1), 1e-5);
+    EXPECT_NEAR(std::abs(v[11]), cycles(k / m), 1e-6);
+  }
 }
 
 // The centroid of a cap is on the way from the middle to the deepest place, ¾ (2 − h)²/(3 − h) of it, with h the share

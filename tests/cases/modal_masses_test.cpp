@@ -292,6 +292,28 @@ TEST_F(ModalMasses, first_mode_of_a_cantilever) {
   EXPECT_NEAR(factors[2] * factors[6], across * about * tip * tip, 1e-11);
 }
 
+// Three oscillators on a base of high stiffness, whose frequencies differ by a few roundings: each moves alone, and
+// together they have the mass of the model.
+TEST_F(ModalMasses, of_oscillators_that_roundings_alone_tell_apart) {
+  for (const double apart : {0.0, 1e-14, 1e-12}) {
+    std::string s =
+        "Oscillators\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/4, MASS=1000, CM=40, IP=1,2,3\nMARKER/40\n"
+        "BUSHING/4, I=40, J=1, K=1E16,1.3E16,1.7E16, KT=2.3E16,2.9E16,3.1E16\n";
+    for (int n = 0; n < 3; ++n) {
+      const int id = n < 2 ? n + 2 : 5;
+      const double k = 1 + n * apart;
+      s += fmt::format(
+          "PART/{0}, MASS=1, CM={0}0, IP=1,2,3, QG={1},0.3,0.7, REULER=0.3,0.4,0.5\nMARKER/{0}0\n"
+          "MARKER/{0}1, PART=4, QP={1},0.3,0.7, REULER=0.3,0.4,0.5\n"
+          "BUSHING/{0}, I={0}0, J={0}1, K={2:.17g},{3:.17g},{4:.17g}, KT={5:.17g},{6:.17g},{7:.17g}\n",
+          id, n, k, 1.3 * k, 1.7 * k, 2.3 * k, 2.9 * k, 3.1 * k);
+    }
+    const std::string t = tables(s + "END\n", "MASS_PER_MODE=ALL");
+    const auto sum = row(t, "Modal effective mass", "Sum"), whole = row(t, "Modal effective mass", "Model");
+    for (std::size_t d = 0; d < 6; ++d) EXPECT_NEAR(sum[d], whole[d], 1e-9 * whole[d]) << apart << " " << d;
+  }
+}
+
 // A body of 1 kg at its held end and 2 kg that its only mode moves away, by 1 a unit: no body moves in it.
 TEST_F(ModalMasses, of_a_body_that_bends_about_the_node_that_holds_it) {
   std::string s =
