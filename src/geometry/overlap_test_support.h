@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/moved_frame_test_support.h"
 #include "geometry/overlap_touch.h"
 #include "geometry/polygon.h"
 #include "geometry/prism.h"
@@ -64,6 +65,31 @@ std::vector<Touch<Seeded>> seeded_touches(const Body& I, const RelativeFrame<dou
 
 inline void expect_near(const Vector& a, const Vector& b, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << k;
+}
+
+// Derivatives against differences, of touches that are as many beside a pose. `tolerance`: of a partial, and of 1.
+template <class Body>
+void expect_differences(const std::vector<Touch<Seeded>>& list, const Body& I, const RelativeFrame<double>& f,
+                        const FacetBody& J, double tolerance, bool cavity = false) {
+  constexpr double h = 1e-6;
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto plus = touches(I, moved(f, n, h), J, cavity), minus = touches(I, moved(f, n, -h), J, cavity);
+    if (plus.size() != list.size() || minus.size() != list.size()) continue;
+    for (const auto& t : list) {
+      const auto like = [&](const std::vector<Touch<double>>& of) {
+        return *std::ranges::min_element(of, {}, [&](const auto& o) { return norm(o.point - value_of(t.point)); });
+      };
+      const Touch<double> up = like(plus), down = like(minus);
+      const auto expect = [&](double partial, double high, double low) {
+        EXPECT_NEAR(partial, (high - low) / (2 * h), tolerance * (1 + std::abs(partial))) << n;
+      };
+      expect(t.gap.partial[n], up.gap, down.gap);
+      for (std::size_t c = 0; c < 3; ++c) {
+        expect(t.normal[c].partial[n], up.normal[c], down.normal[c]);
+        expect(t.point[c].partial[n], up.point[c], down.point[c]);
+      }
+    }
+  }
 }
 
 // Poses by chance, the same in every run.

@@ -216,25 +216,8 @@ TEST_F(overlap_touch, changes_as_the_bodies_move) {
     if (list.empty() || std::ranges::any_of(list, [](const auto& t) { return !t.defined || t.seam < 1e-4; })) continue;
     if (std::ranges::any_of(list, [](const auto& t) { return t.gap.value < -0.3; })) continue;
     ++seen, several += list.size() > 1;
-    constexpr double h = 1e-6;
-    for (std::size_t n = 0; n < 6; ++n) {
-      const auto plus = touches(*I, moved(f, n, h), *J), minus = touches(*I, moved(f, n, -h), *J);
-      if (plus.size() != list.size() || minus.size() != list.size()) continue;
-      for (const auto& t : list) {
-        const auto like = [&](const std::vector<Touch<double>>& of) {
-          return *std::ranges::min_element(of, {}, [&](const auto& o) { return norm(o.point - value_of(t.point)); });
-        };
-        const Touch<double> up = like(plus), down = like(minus);
-        const auto expect = [&](double partial, double high, double low) {
-          EXPECT_NEAR(partial, (high - low) / (2 * h), 2e-5 * (1 + std::abs(partial))) << k << ' ' << n;
-        };
-        expect(t.gap.partial[n], up.gap, down.gap);
-        for (std::size_t c = 0; c < 3; ++c) {
-          expect(t.normal[c].partial[n], up.normal[c], down.normal[c]);
-          expect(t.point[c].partial[n], up.point[c], down.point[c]);
-        }
-      }
-    }
+    SCOPED_TRACE(k);
+    expect_differences(list, *I, f, *J, 2e-5);
     if (HasFailure()) break;
   }
   EXPECT_GT(seen, 60);

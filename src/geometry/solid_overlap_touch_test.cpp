@@ -11,7 +11,6 @@
 #include <random>
 #include <vector>
 
-#include "geometry/moved_frame_test_support.h"
 #include "geometry/overlap_test_support.h"
 #include "geometry/overlap_touch.h"
 #include "geometry/polygon.h"
@@ -112,25 +111,8 @@ TEST_F(solid_overlap_touch, changes_as_the_bodies_move) {
       const auto unlike = [](const auto& t) { return !t.defined || t.seam < 1e-4 || t.gap.value < -0.25; };
       if (list.empty() || std::ranges::any_of(list, unlike)) continue;
       ++seen, several += list.size() > 1, hollow += cavity;
-      constexpr double h = 1e-6;
-      for (std::size_t n = 0; n < 6; ++n) {
-        const auto plus = touches(solid, moved(f, n, h), J, cavity), minus = touches(solid, moved(f, n, -h), J, cavity);
-        if (plus.size() != list.size() || minus.size() != list.size()) continue;
-        for (const auto& t : list) {
-          const auto like = [&](const std::vector<Touch<double>>& of) {
-            return *std::ranges::min_element(of, {}, [&](const auto& o) { return norm(o.point - value_of(t.point)); });
-          };
-          const Touch<double> up = like(plus), down = like(minus);
-          const auto expect = [&](double partial, double high, double low) {
-            EXPECT_NEAR(partial, (high - low) / (2 * h), 5e-5 * (1 + std::abs(partial))) << k << ' ' << n;
-          };
-          expect(t.gap.partial[n], up.gap, down.gap);
-          for (std::size_t c = 0; c < 3; ++c) {
-            expect(t.normal[c].partial[n], up.normal[c], down.normal[c]);
-            expect(t.point[c].partial[n], up.point[c], down.point[c]);
-          }
-        }
-      }
+      SCOPED_TRACE(k);
+      expect_differences(list, solid, f, J, 5e-5, cavity);
       if (HasFailure()) return;
     }
   }
