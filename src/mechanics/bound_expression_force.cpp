@@ -1,4 +1,5 @@
 // Forces and reactions that an expression reads, and what they depend on.
+#include <cmath>
 #include <limits>
 
 #include "mechanics/bound_expression.h"
@@ -48,11 +49,16 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
   const bool torque = part == LoadPart::torque;
   std::vector<MarkerWrench> wrenches(of.terms.size());
   Vector sum{};
+  double terms = 0;  // in size: a component that is next to nothing is added up from them as well
   for (std::size_t t = 0; t < of.terms.size(); ++t) {
     const ForceTerm& term = of.terms[t];
-    term.wrench.source->wrench(motion, term.wrench.which, true, wrenches[t]);
-    sum += on_marker(wrenches[t], term.on_J, part);
+    MarkerWrench& w = wrenches[t];
+    term.wrench.source->wrench(motion, term.wrench.which, true, w);
+    sum += on_marker(w, term.on_J, part);
+    terms += norm(torque ? w.force.torque : w.force.force);
+    if (torque && term.on_J) terms += norm(dynalin::value(w.pair.delta)) * norm(w.force.force);
   }
+  eq.add_residual(row, 0.0, std::abs(factor) * terms);
   // The direction that picks the component: an axis of the marker, or that of the vector itself.
   Vector e{};
   if (is_magnitude(of.component)) {

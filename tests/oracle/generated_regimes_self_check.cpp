@@ -34,9 +34,9 @@ TEST(Generated, frictions_of_each_joint_are_in_each_regime) {
         ++drawn[{m.joints[static_cast<std::size_t>(f.joint - 1)].type, regime_of(model, f)}];
     }
   };
-  for (const std::uint64_t seed : seeds_of_friction) look(seed);
+  for (std::uint64_t seed = first_of_friction; seed < behind_friction; ++seed) look(seed);
   for (const JointType joint : rubbing_joints) {
-    for (std::size_t k = 0; joint != JointType::cylindrical && k < names.size(); ++k) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
       EXPECT_GT((drawn[{joint, static_cast<RubRegime>(k)}]), 0)
           << "joint of type " << static_cast<int>(joint) << " in " << names[k];
     }
@@ -46,7 +46,7 @@ TEST(Generated, frictions_of_each_joint_are_in_each_regime) {
 // Where the rotation is fast beside the vibration of the modes, centrifugal and Coriolis forces have a part in all
 // entries.
 TEST(Generated, flexible_bodies_spin_about_as_fast_as_they_vibrate) {
-  for (std::uint64_t seed = 355; seed < 360; ++seed) {
+  for (std::uint64_t seed = behind_friction; seed < 360; ++seed) {
     SCOPED_TRACE(seed);
     const Mechanism m = random_mechanism(seed);
     Model model(m);

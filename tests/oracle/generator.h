@@ -33,10 +33,8 @@ struct Meeting {
 enum class RubRegime { stiction, transition, sliding, lugre };
 inline constexpr std::array rubbing_joints = {JointType::translational, JointType::revolute,  JointType::cylindrical,
                                               JointType::hooke,         JointType::universal, JointType::spherical};
-// Of 331 to 354, one for each joint in each regime. Of a CYLINDRICAL joint hardly any draw is acceptable, and sharp
-// enough for differences.
-inline constexpr std::array<std::uint64_t, 20> seeds_of_friction = {331, 332, 334, 335, 336, 337, 338, 340, 341, 342,
-                                                                    343, 344, 346, 347, 348, 349, 350, 352, 353, 354};
+// Seeds of which each joint rubs in each regime, and the seed behind the last.
+inline constexpr std::uint64_t first_of_friction = 331, behind_friction = 355;
 
 // Nodes of a flexible body are one to the program.
 [[nodiscard]] inline bool are_one_body(const BodyRef& a, const BodyRef& b) {
@@ -58,13 +56,13 @@ class Draw {
         must_touch_(seed > 220 && seed <= 240),
         must_bend_(seed > 240 && seed <= 260),
         must_call_(seed > 260 && seed <= 270),
-        must_deform_((seed > 270 && seed <= 280) || (seed > 354 && seed < 360)),
+        must_deform_((seed > 270 && seed <= 280) || (seed >= behind_friction && seed < 360)),
         plane_(seed > 280 && seed <= 290 ? static_cast<BeamPlane>(1 + seed % 3) : BeamPlane::none),
         meeting_(seed > 290 && seed <= 310 ? static_cast<int>((seed - 291) % 10) : -1),
         must_ride_(seed > 310 && seed <= 320),
         must_float_(seed > 320 && seed <= 330),
-        rubbing_(seed > 330 && seed <= 354 ? static_cast<int>(seed - 331) : -1),
-        must_spin_(seed > 354 && seed < 360),
+        rubbing_(seed >= first_of_friction && seed < behind_friction ? static_cast<int>(seed - first_of_friction) : -1),
+        must_spin_(seed >= behind_friction && seed < 360),
         may_rub_(seed % 2 == 0 || rubbing_ >= 0) {}
   [[nodiscard]] Mechanism mechanism();
 

@@ -132,8 +132,11 @@ void Draw::draw_frictions() {
 void Draw::check_frictions(const Model& model) const {
   for (const Friction& f : m_.frictions) {
     const auto [across, along, bending, torsion] = model.pressing(f);
-    const bool ball = m_.joints[static_cast<std::size_t>(f.joint - 1)].type == JointType::spherical;
-    if (across < 0.1 * F_ || (!ball && (along < 0.02 * F_ && torsion < 0.02 * F_ * L_)))
+    const JointType type = m_.joints[static_cast<std::size_t>(f.joint - 1)].type;
+    const bool ball = type == JointType::spherical;
+    // A sleeve bears nothing along its axis, neither force nor torque.
+    const bool along_counts = !ball && type != JointType::cylindrical;
+    if (across < 0.1 * F_ || (along_counts && along < 0.02 * F_ && torsion < 0.02 * F_ * L_))
       throw std::runtime_error("a reaction that rubs nearly vanishes");
     if (!ball && bending < 0.02 * F_ * L_) throw std::runtime_error("a moment that rubs nearly vanishes");
   }
