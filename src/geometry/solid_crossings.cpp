@@ -226,7 +226,7 @@ void SolidCrossings::join(bool lower_pole_inside, bool upper_pole_inside) {
   for (const auto& [loop, chain] : highest) {
     const auto on_way = meridian_through(chain->highest);
     const auto next = std::ranges::find_if(
-        on_way, [&, own = loop](const MeridianCrossing& m) { return m.loop != own && m.height > chain->top; });
+        on_way, [own = loop, top = chain->top](const MeridianCrossing& m) { return m.loop != own && m.height > top; });
     if (next == on_way.end()) {
       if (upper_pole_inside) sets_.join(chain->part, parts_.size() + 1);
     } else if (next->leaves) {
