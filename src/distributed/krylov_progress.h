@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 
 namespace dynalin {
@@ -18,6 +19,9 @@ class KrylovProgress {
   static constexpr double tolerance = 1e-11;
   // Or as little as the largest value leaves by rounding.
   static bool is_found(const Value&, double largest);
+
+  // Of a space in which so many values are searched for.
+  static Eigen::Index vectors_for(Eigen::Index wanted) { return std::max(2 * wanted + 6, wanted + 20); }
 
   // It ends when `wanted` values are found, or one that is smaller than `least`.
   KrylovProgress(Eigen::Index wanted, double least) : wanted_(wanted), least_(least) {}

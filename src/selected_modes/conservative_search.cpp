@@ -1,18 +1,14 @@
 #include "selected_modes/conservative_search.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
-#include "base/arbitrary_vector.h"
-#include "base/dense_products.h"
 #include "base/dense_solvers.h"
 #include "distributed/krylov_progress.h"
-#include "eigenvalues/rounding.h"
+#include "selected_modes/conservative_krylov.h"
 
 namespace dynalin {
 
@@ -22,8 +18,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using ComplexMatrix = Eigen::MatrixXcd;
-
-constexpr Index at_a_time = 4;  // columns of the block
 
 }  // namespace
 
@@ -87,115 +81,24 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
   unsettled_.clear();
   if (everything()) return true;
   const double sigma = op_->symmetric()->sigma();
-  const Index locked = vectors_.cols(), n = model_->coordinates(), left = model_->freedoms() - locked;
-  const Index most = std::min(left, std::max<Index>(2 * wanted + 6, wanted + 20));
-  wanted = std::min(wanted, most);
-  Matrix V(n, locked + most + at_a_time);
-  V.leftCols(locked) = vectors_;
-  const auto op = [&](const Matrix& v) { return op_->symmetric()->solve(model_->forces(v)); };
-  // Orthogonal to the first columns, whose parts in it are added to `share`; 0 if nothing is left of what it was,
-  // `before`. Of the first `known` once is enough, unless the last time, before which its size was `size`, or this one
-  // takes away much.
-  const auto without = [&](Eigen::Ref<Eigen::VectorXd> w, Index known, Index columns, Eigen::Ref<Eigen::VectorXd> share,
-                           double size, double before) {
-    constexpr int most_passes = 4;
-    constexpr double much = 0.7;
-    for (int pass = 0;; ++pass) {
-      const Eigen::VectorXd f = model_->forces(w).col(0);
-      const double now = std::sqrt(std::abs(w.dot(f)));
-      const bool little = now > much * size;
-      size = now;
-      if (pass > 0 && (little || pass == most_passes)) break;
-      const Index from = little ? known : 0;
-      const Eigen::VectorXd along = V.middleCols(from, columns - from).transpose() * f;
-      w.noalias() -= V.middleCols(from, columns - from) * along;
-      share.tail(columns - from) += along;
-    }
-    if (!(size > 1e3 * eps * before)) return 0.0;
-    w /= size;
-    return size;
-  };
-  const auto sizes = [](const Matrix& columns, const Matrix& images) -> Eigen::RowVectorXd {
-    return columns.cwiseProduct(images).colwise().sum().cwiseAbs().cwiseSqrt();
-  };
-  const auto start_at = [&](Index column) {
-    for (int tries = 0; tries < 20; ++tries) {
-      Eigen::VectorXd ignored = Eigen::VectorXd::Zero(column);
-      Matrix start = op(arbitrary_vector(n, 500 + starts_++).real());
-      const Matrix image = model_->forces(start);
-      const double before = sizes(start, image)(0);
-      take_out(V, column, image, start);
-      V.col(column) = start.col(0);
-      if (without(V.col(column), 0, column, ignored, before, before) > 0) return true;
-    }
-    return false;
-  };
-  // Columns of V beyond the locked ones: `processed` with their images in H, then those of the block.
-  Index size = 0, processed = 0;
-  for (; size < std::min(at_a_time, left); ++size) {
-    if (!start_at(locked + size)) return false;
-  }
-  Matrix H = Matrix::Zero(most + at_a_time, most);
-  KrylovProgress progress(wanted, least);
+  const Index most = std::min(model_->freedoms() - vectors_.cols(), KrylovProgress::vectors_for(wanted));
+  ConservativeKrylov space(*op_->symmetric(), vectors_, most, starts_);
+  if (!space.start()) return false;
+  KrylovProgress progress(std::min(wanted, most), least);
   for (int restart = 0; restart < restarts; ++restart) {
-    while (processed < most) {
-      const Index block = std::min({at_a_time, most - processed, size - processed});
-      if (block <= 0) break;
-      Matrix images = op(V.middleCols(locked + processed, block));
-      if (!images.allFinite()) return false;
-      // Twice for all columns of the block at once.
-      const Index known = locked + size;
-      Matrix of_images = model_->forces(images);
-      const Eigen::RowVectorXd before = sizes(images, of_images);
-      Matrix along = take_out(V, known, of_images, images);
-      of_images = model_->forces(images);
-      const Eigen::RowVectorXd after = sizes(images, of_images);
-      along += take_out(V, known, of_images, images);
-      for (Index b = 0; b < block; ++b, ++processed) {
-        Eigen::VectorXd share = Eigen::VectorXd::Zero(locked + size);
-        share.head(known) = along.col(b);
-        const double rest = without(images.col(b), known, locked + size, share, after(b), before(b));
-        H.col(processed).head(size) = share.tail(size);
-        if (rest == 0 || locked + size >= V.cols() || size >= left) continue;
-        V.col(locked + size) = images.col(b);
-        H(size++, processed) = rest;
+    if (!space.fill()) return false;
+    const ConservativeKrylov::Ritz ritz = space.ritz();
+    const Index all = ritz.count(), done = ritz.found();
+    progress.look(done, all, done > 0 ? ritz.value(done - 1).size : 0,
+                  done < all ? std::optional(ritz.value(done)) : std::nullopt);
+    if (progress.has_reached_its_end() || restart + 1 == restarts || progress.stands_still()) {
+      for (Index k = 0; k < all; ++k) {
+        if (ritz.theta(k) != 0) (k < done ? squares_ : unsettled_).push_back(sigma + 1 / ritz.theta(k));
       }
+      vectors_ = space.take(ritz, done);
+      return progress.has_reached_its_end();
     }
-    // What the block has left once everything was processed: residuals.
-    const Index m = processed, block = size - processed;
-    Matrix T = H.topLeftCorner(m, m);
-    T = (0.5 * (T + T.transpose())).eval();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(T);
-    std::vector<Index> order(static_cast<std::size_t>(m));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return std::abs(solver.eigenvalues()(a)) > std::abs(solver.eigenvalues()(b));
-    });
-    const Matrix U = solver.eigenvectors()(Eigen::all, order);
-    const Eigen::VectorXd theta = solver.eigenvalues()(order);
-    const Matrix coupling = H.block(m, 0, block, m) * U;
-    const auto value = [&](Index k) {
-      return KrylovProgress::Value{std::abs(theta(k)), block > 0 ? coupling.col(k).norm() : 0.0};
-    };
-    Index done = 0;
-    while (done < m && KrylovProgress::is_found(value(done), std::abs(theta(0)))) ++done;
-    progress.look(done, m, done > 0 ? value(done - 1).size : 0, done < m ? std::optional(value(done)) : std::nullopt);
-    const bool success = progress.has_reached_its_end();
-    const Index kept = success ? done : std::min(m - 1, done + std::max<Index>(1, (m - done) / 2));
-    if (success || restart + 1 == restarts || progress.stands_still()) {
-      for (Index k = 0; k < m; ++k) {
-        if (theta(k) != 0) (k < done ? squares_ : unsettled_).push_back(sigma + 1 / theta(k));
-      }
-      combine_columns(V, locked, U.leftCols(done));
-      vectors_ = V.leftCols(locked + done);
-      return success;
-    }
-    combine_columns(V, locked, U.leftCols(kept));
-    for (Index b = 0; b < block; ++b) V.col(locked + kept + b) = V.col(locked + m + b).eval();
-    H.setZero();
-    H.topLeftCorner(kept, kept) = theta.head(kept).asDiagonal();
-    H.block(kept, 0, block, kept) = coupling.leftCols(kept);
-    processed = kept, size = kept + block;
+    space.restart(ritz, std::min(all - 1, done + std::max<Index>(1, (all - done) / 2)));
   }
   return false;
 }

@@ -7,6 +7,7 @@
 #include <new>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include "base/arbitrary_vector.h"
 #include "base/dense_products.h"
@@ -55,13 +56,137 @@ void sort_by_size(ComplexMatrix& T, ComplexMatrix& U) {
   }
 }
 
+// A Krylov space beside columns Q that are locked, Op Q = Q T:
+//
+//     Op V = Q C + V H + v b        v the vector behind those of the space, b = β e_last until H is brought to Schur
+//     form
+class KrylovSpace {
+ public:
+  using Operator = KrylovSchur::Operator;
+
+  // Of so many vectors; `starts` counts the start vectors that were taken.
+  KrylovSpace(const Operator& op, const ComplexMatrix& locked, Index most, unsigned& starts)
+      : op_(op),
+        size_(locked.rows()),
+        locked_(locked.cols()),
+        most_(most),
+        starts_(starts),
+        V_(size_, locked_ + most + 1),
+        C_(ComplexMatrix::Zero(locked_, most)),
+        H_(ComplexMatrix::Zero(most, most)) {
+    V_.leftCols(locked_) = locked;
+    start_at(locked_);
+  }
+
+  // Fills the space and brings H to Schur form, the largest values first; false if that fails.
+  bool fill() {
+    b_ = Eigen::RowVectorXcd::Zero(most_);
+    for (Index j = kept_; j < most_; ++j) {
+      if (!extend(j)) return false;
+    }
+    ComplexMatrix U;
+    if (!schur(H_, U)) return false;
+    sort_by_size(H_, U);
+    b_ = (b_ * U).eval();
+    V_.middleCols(locked_, most_) = product(V_.middleCols(locked_, most_), U);
+    if (locked_ > 0) C_ = (C_ * U).eval();
+    return true;
+  }
+
+  KrylovProgress::Value value(Index k) const { return {std::abs(H_(k, k)), std::abs(b_(k))}; }
+  // So many of the first are found.
+  Index found() const {
+    Index found = 0;
+    while (found < most_ && KrylovProgress::is_found(value(found), value(0).size)) ++found;
+    return found;
+  }
+  // Behind the first `found`, if anything is left over of them.
+  std::vector<Complex> others(Index found) const {
+    std::vector<Complex> values;
+    if (found == most_ || !(std::abs(b_(found)) > 0)) return values;
+    for (Index k = found; k < most_; ++k) values.push_back(H_(k, k));
+    return values;
+  }
+
+  // Goes on from the first `kept` vectors.
+  void restart(Index kept) {
+    V_.col(locked_ + kept) = V_.col(locked_ + most_).eval();
+    const ComplexMatrix head = H_.topLeftCorner(kept, kept);
+    H_.setZero();
+    H_.topLeftCorner(kept, kept) = head;
+    H_.row(kept).head(kept) = b_.head(kept);
+    kept_ = kept;
+  }
+
+  // What Q and T become with the first `found`.
+  ComplexMatrix basis(Index found) const { return V_.leftCols(locked_ + found); }
+  ComplexMatrix triangle(const ComplexMatrix& of_locked, Index found) const {
+    ComplexMatrix T = ComplexMatrix::Zero(locked_ + found, locked_ + found);
+    T.topLeftCorner(locked_, locked_) = of_locked;
+    T.topRightCorner(locked_, found) = C_.leftCols(found);
+    T.bottomRightCorner(found, found) = H_.topLeftCorner(found, found);
+    return T;
+  }
+
+ private:
+  // Without its parts along the first `columns` of V, which are put into `share`.
+  void take_out_all(ComplexVector& w, Index columns, ComplexVector& share) const {
+    share = ComplexVector::Zero(columns);
+    for (int pass = 0; pass < 2; ++pass) share += take_out(V_, columns, w);
+  }
+
+  void start_at(Index column) {
+    for (;;) {
+      ComplexVector v = arbitrary_vector(size_, 100 + starts_++), ignored;
+      take_out_all(v, column, ignored);
+      take_out_all(v, column, ignored);
+      const double norm = v.norm();
+      if (!(norm > 1e-8)) continue;
+      V_.col(column) = v / norm;
+      return;
+    }
+  }
+
+  // By the image of the j-th vector; false if it is not finite.
+  bool extend(Index j) {
+    const Index columns = locked_ + j + 1;
+    ComplexVector w = V_.col(columns - 1), share;
+    op_(w);
+    if (!w.allFinite()) return false;
+    const double size = w.norm();
+    take_out_all(w, columns, share);
+    C_.col(j) = share.head(locked_);
+    H_.col(j).head(j + 1) = share.tail(j + 1);
+    double rest = w.norm();
+    const bool last = columns == size_;
+    if (!last && rest > 16 * eps * size) {
+      V_.col(columns) = w / rest;
+    } else {
+      rest = 0;
+      if (!last) start_at(columns);
+    }
+    if (j + 1 < most_) {
+      H_(j + 1, j) = rest;
+    } else {
+      b_(j) = rest;
+    }
+    return true;
+  }
+
+  const Operator& op_;
+  const Index size_, locked_, most_;
+  unsigned& starts_;
+  ComplexMatrix V_, C_, H_;
+  Eigen::RowVectorXcd b_;
+  Index kept_ = 0;  // columns of the space that is gone on from
+};
+
 }  // namespace
 
 bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restarts) {
   in_sight_.clear();
-  const Index locked = found();
-  if (locked == size_) return true;
-  const Index most = std::min(size_ - locked, std::max<Index>(2 * wanted + 6, wanted + 20));
+  if (everything()) return true;
+  const Index most = std::min(size_ - found(), KrylovProgress::vectors_for(wanted));
   wanted = std::min(wanted, most);
   const KrylovTask task{Q_, arbitrary_vector(size_, 100 + starts_), wanted, most, least, restarts};
   if (const auto of_team = krylov_run_of_team(op, task); of_team && take(*of_team)) {
@@ -69,83 +194,21 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
     in_sight_ = of_team->in_sight;
     return of_team->converged;
   }
-  ComplexMatrix V(size_, locked + most + 1), C = ComplexMatrix::Zero(locked, most), H = ComplexMatrix::Zero(most, most);
-  V.leftCols(locked) = Q_;
-  // Without its parts along the first `columns` of V, which are added to `share`.
-  const auto without = [&](ComplexVector& w, Index columns, ComplexVector& share) {
-    share = ComplexVector::Zero(columns);
-    for (int pass = 0; pass < 2; ++pass) share += take_out(V, columns, w);
-  };
-  const auto start_at = [&](Index column) {
-    for (;;) {
-      ComplexVector v = arbitrary_vector(size_, 100 + starts_++), ignored;
-      without(v, column, ignored);
-      without(v, column, ignored);
-      const double norm = v.norm();
-      if (!(norm > 1e-8)) continue;
-      V.col(column) = v / norm;
-      return;
-    }
-  };
-  start_at(locked);
-  Index kept = 0;  // columns of the space that is gone on from
-  Eigen::RowVectorXcd b;
+  KrylovSpace space(op, Q_, most, starts_);
   KrylovProgress progress(wanted, least);
   for (int restart = 0; restart < restarts; ++restart) {
-    b = Eigen::RowVectorXcd::Zero(most);
-    for (Index j = kept; j < most; ++j) {
-      const Index columns = locked + j + 1;
-      ComplexVector w = V.col(columns - 1), share;
-      op(w);
-      if (!w.allFinite()) return false;
-      const double size = w.norm();
-      without(w, columns, share);
-      C.col(j) = share.head(locked);
-      H.col(j).head(j + 1) = share.tail(j + 1);
-      double rest = w.norm();
-      const bool last = columns == size_;
-      if (!last && rest > 16 * eps * size) {
-        V.col(columns) = w / rest;
-      } else {
-        rest = 0;
-        if (!last) start_at(columns);
-      }
-      if (j + 1 < most) {
-        H(j + 1, j) = rest;
-      } else {
-        b(j) = rest;
-      }
-    }
-    ComplexMatrix U;
-    if (!schur(H, U)) return false;
-    sort_by_size(H, U);
-    b = (b * U).eval();
-    V.middleCols(locked, most) = product(V.middleCols(locked, most), U);
-    if (locked > 0) C = (C * U).eval();
-    const auto value = [&](Index k) { return KrylovProgress::Value{std::abs(H(k, k)), std::abs(b(k))}; };
-    Index done = 0;
-    while (done < most && KrylovProgress::is_found(value(done), value(0).size)) ++done;
-    progress.look(done, most, done > 0 ? value(done - 1).size : 0,
-                  done < most ? std::optional(value(done)) : std::nullopt);
+    if (!space.fill()) return false;
+    const Index done = space.found();
+    progress.look(done, most, done > 0 ? space.value(done - 1).size : 0,
+                  done < most ? std::optional(space.value(done)) : std::nullopt);
     if (progress.has_reached_its_end() || restart + 1 == restarts || progress.stands_still()) {
-      if (done < most && std::abs(b(done)) > 0) {
-        for (Index k = done; k < most; ++k) in_sight_.push_back(H(k, k));
-      }
-      ComplexMatrix T = ComplexMatrix::Zero(locked + done, locked + done);
-      T.topLeftCorner(locked, locked) = T_;
-      T.topRightCorner(locked, done) = C.leftCols(done);
-      T.bottomRightCorner(done, done) = H.topLeftCorner(done, done);
-      T_ = std::move(T);
-      Q_ = V.leftCols(locked + done);
+      in_sight_ = space.others(done);
+      T_ = space.triangle(T_, done);
+      Q_ = space.basis(done);
       return progress.has_reached_its_end();
     }
     // What has converged stays in the space that is gone on from, and half of the rest.
-    kept = std::min(most - 1, done + std::max<Index>(1, (most - done) / 2));
-    V.col(locked + kept) = V.col(locked + most).eval();
-    const ComplexMatrix head = H.topLeftCorner(kept, kept);
-    H.setZero();
-    H.topLeftCorner(kept, kept) = head;
-    H.row(kept).head(kept) = b.head(kept);
+    space.restart(std::min(most - 1, done + std::max<Index>(1, (most - done) / 2)));
   }
   return false;
 }

@@ -209,93 +209,133 @@ LeftResiduals<S> left_residuals(const PerturbationEquations& equations, const Ph
   return left;
 }
 
+// The pencil and what each of its entries may be off, term by term.
 template <class Phased>
-SubspacePencil measured_as(const Phased& as, const PerturbationEquations& equations, const ShiftInverse& op,
-                           const Subspace& of, double distance, double reach) {
-  using S = typename Phased::Scalar;
-  const Index n = equations.states(), p = of.X.cols(), z = of.V.cols(), algebraic = equations.unknowns() - n;
-  const auto completed = [&](const ColumnsOf<S>& x) {
-    return all_unknowns<ColumnsOf<S>>(as.mapped(x, [&](const Matrix& m) { return equations.complete(m); }), x);
-  };
-  const LeftResiduals<S> left = left_residuals(equations, as);
-  const ColumnMatrix rows = transposed(equations.products());
-  const Eigen::VectorXd& unit = op.units();
+class PencilMeasurement {
+ public:
+  PencilMeasurement(const Phased& as, const PerturbationEquations& equations, const ShiftInverse& op,
+                    const Subspace& of)
+      : as_(as),
+        equations_(equations),
+        op_(op),
+        of_(of),
+        n_(equations.states()),
+        p_(of.X.cols()),
+        algebraic_(equations.unknowns() - n_),
+        left_(left_residuals(equations, as)),
+        rows_(transposed(equations.products())),
+        G_(p_, p_),
+        between_(p_, p_),
+        size_of_right_(p_) {}
 
-  ComplexMatrix G(p, p);
-  Matrix between(p, p);
-  Eigen::VectorXd size_of_right(p), size_of_left(p);
-  SubspacePencil out;
-  out.uncertainty.resize(p, p), out.unknown.resize(p, p), out.residual.resize(n, p);
-  for_few_columns<S>(n + algebraic, p, [&](Index first, Index count) {
+  SubspacePencil run(double distance, double reach) {
+    out_.uncertainty.resize(p_, p_), out_.unknown.resize(p_, p_), out_.residual.resize(n_, p_);
+    for_few_columns<S>(n_ + algebraic_, p_, [&](Index first, Index count) { measure_columns(first, count); });
+    out_.uncertainty += long_eps * (of_.B.cwiseAbs() + G_.cwiseAbs());
+    out_.value = of_.B.cast<std::complex<long double>>() + G_.cast<std::complex<long double>>();
+    add_defect_of_bases();
+    if constexpr (!is_real<S>) {
+      if (of_.V.cols() > 0) add_residuals_of_zeros();
+    }
+    add_rest_of_model(distance, reach);
+    out_.uncertainty = upward_from_single * (out_.uncertainty + out_.unknown);
+    return std::move(out_);
+  }
+
+ private:
+  using S = typename Phased::Scalar;
+
+  ColumnsOf<S> completed(const ColumnsOf<S>& x) const {
+    return all_unknowns<ColumnsOf<S>>(as_.mapped(x, [&](const Matrix& m) { return equations_.complete(m); }), x);
+  }
+
+  // Yᴴ R, R and what they make of the rest of the model.
+  void measure_columns(Index first, Index count) {
     Residuals<S> right;
     Matrix variances;
     {
-      const ColumnsOf<S> w = completed(as.X().middleCols(first, count));
-      right = residuals(as, rows, w, as.U(), as.onto().middleCols(first, count).eval());
-      variances = equations.rounding_variances(w);
+      const ColumnsOf<S> w = completed(as_.X().middleCols(first, count));
+      right = residuals(as_, rows_, w, as_.U(), as_.onto().middleCols(first, count).eval());
+      variances = equations_.rounding_variances(w);
     }
-    right.rounding += static_cast<double>(n + algebraic) * eps * sizes(right.value);
-    const auto by_left = left.y.weigh(right.value, right.rounding, variances);
+    right.rounding += static_cast<double>(n_ + algebraic_) * eps * sizes(right.value);
+    const auto by_left = left_.y.weigh(right.value, right.rounding, variances);
     right.rounding.resize(0, 0), variances.resize(0, 0);
     const ColumnsOf<S> reduced =
-        as.mapped(right.value, [&](Matrix m) { return equations.reduced(std::move(m), SparseLu::Refined::no); });
+        as_.mapped(right.value, [&](Matrix m) { return equations_.reduced(std::move(m), SparseLu::Refined::no); });
     // Two ways to the same: their difference shows what the factors, and y in few digits, have left.
-    const ComplexMatrix of_block = as.projected(reduced);
-    G.middleCols(first, count) = of_block;
-    out.uncertainty.middleCols(first, count) =
-        by_left.rounding + margin_of_difference * (as.product_of_residual(by_left.product) - of_block).cwiseAbs();
-    out.unknown.middleCols(first, count) = by_left.deviation;
-    out.residual.middleCols(first, count) = as.right_residual(reduced);
+    const ComplexMatrix of_block = as_.projected(reduced);
+    G_.middleCols(first, count) = of_block;
+    out_.uncertainty.middleCols(first, count) =
+        by_left.rounding + margin_of_difference * (as_.product_of_residual(by_left.product) - of_block).cwiseAbs();
+    out_.unknown.middleCols(first, count) = by_left.deviation;
+    out_.residual.middleCols(first, count) = as_.right_residual(reduced);
     // What goes through the rest of the model: (S − σ E)⁻¹ by (A − σ)⁻¹, with the algebraic unknowns taken out on both
     // sides.
-    ComplexMatrix R = unit.cwiseInverse().asDiagonal() * out.residual.middleCols(first, count);
-    op.apply(R);
+    const Eigen::VectorXd& unit = op_.units();
+    ComplexMatrix R = unit.cwiseInverse().asDiagonal() * out_.residual.middleCols(first, count);
+    op_.apply(R);
     R = (unit.asDiagonal() * R).eval();
-    R -= of.X * (of.Y.adjoint() * R).eval();
-    size_of_right.segment(first, count) = (unit.cwiseInverse().asDiagonal() * R).colwise().norm();
-    between.middleCols(first, count) =
-        left.products(right.value.topRows(algebraic)) + adjoint_product(left.of_states, R).cwiseAbs();
-  });
-  out.uncertainty += long_eps * (of.B.cwiseAbs() + G.cwiseAbs());
-  out.value = of.B.cast<std::complex<long double>>() + G.cast<std::complex<long double>>();
-  // Yᴴ X and Yᴴ V as computed.
-  ComplexMatrix off(p, p + z);
-  off << adjoint_product(of.Y, of.X), adjoint_product(of.Y, of.V.cast<Complex>());
-  off.leftCols(p).diagonal().array() -= 1.0;
-  Matrix of_sizes(p, p + z);
-  of_sizes << sizes_product(of.Y, of.X.cwiseAbs()), sizes_product(of.Y, of.V.cwiseAbs());
-  const Matrix defect = off.cwiseAbs() + static_cast<double>(n) * eps * of_sizes;
-  out.uncertainty += 1.1 * defect.leftCols(p) * G.cwiseAbs();
-  if constexpr (!is_real<S>) {
-    if (z > 0) {
-      // The equations hold the zeros to rounding only: to first order Yᴴ (A V − V N)(λ − N)⁻¹ C.
-      const ComplexMatrix of_zero = of.V.cast<Complex>();
-      const Residuals<S> zero = residuals(as, rows, completed(of_zero), of_zero, of.N.cast<Complex>().eval());
-      const Matrix from_zero = left.y.adjoint_times(zero.value).cwiseAbs();
-      Matrix through(z, p);
-      for (Index j = 0; j < p; ++j) {
-        ComplexMatrix shifted = -of.N.cast<Complex>();
-        shifted.diagonal().array() += of.B(j, j);
-        through.col(j) = shifted.partialPivLu().solve(of.C.col(j)).cwiseAbs();
-      }
-      out.uncertainty += first_order_margin * (from_zero * through);
-    }
+    R -= of_.X * (of_.Y.adjoint() * R).eval();
+    size_of_right_.segment(first, count) = (unit.cwiseInverse().asDiagonal() * R).colwise().norm();
+    between_.middleCols(first, count) =
+        left_.products(right.value.topRows(algebraic_)) + adjoint_product(left_.of_states, R).cwiseAbs();
   }
 
-  // One column after the other: the rest of the way is made beside it.
-  double beside = 0;
-  in_parallel(2, [&](std::size_t task) {
-    if (task == 0) {
-      beside = norm_beside(op, of.X, of.Y);
-    } else {
-      size_of_left = left_sizes(op, of, left.of_states);
+  // Yᴴ X and Yᴴ V as computed.
+  void add_defect_of_bases() {
+    const Index z = of_.V.cols();
+    ComplexMatrix off(p_, p_ + z);
+    off << adjoint_product(of_.Y, of_.X), adjoint_product(of_.Y, of_.V.cast<Complex>());
+    off.leftCols(p_).diagonal().array() -= 1.0;
+    Matrix of_sizes(p_, p_ + z);
+    of_sizes << sizes_product(of_.Y, of_.X.cwiseAbs()), sizes_product(of_.Y, of_.V.cwiseAbs());
+    const Matrix defect = off.cwiseAbs() + static_cast<double>(n_) * eps * of_sizes;
+    out_.uncertainty += 1.1 * defect.leftCols(p_) * G_.cwiseAbs();
+  }
+
+  // The equations hold the zeros to rounding only: to first order Yᴴ (A V − V N)(λ − N)⁻¹ C.
+  void add_residuals_of_zeros() {
+    const ComplexMatrix of_zero = of_.V.cast<Complex>();
+    const Residuals<S> zero = residuals(as_, rows_, completed(of_zero), of_zero, of_.N.cast<Complex>().eval());
+    const Matrix from_zero = left_.y.adjoint_times(zero.value).cwiseAbs();
+    Matrix through(of_.V.cols(), p_);
+    for (Index j = 0; j < p_; ++j) {
+      ComplexMatrix shifted = -of_.N.cast<Complex>();
+      shifted.diagonal().array() += of_.B(j, j);
+      through.col(j) = shifted.partialPivLu().solve(of_.C.col(j)).cwiseAbs();
     }
-  });
-  const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
-  out.uncertainty += between + reach * amplified * size_of_left * size_of_right.transpose();
-  out.uncertainty = upward_from_single * (out.uncertainty + out.unknown);
-  return out;
-}
+    out_.uncertainty += first_order_margin * (from_zero * through);
+  }
+
+  // Lᴴ (z − A_c)⁻¹ R
+  void add_rest_of_model(double distance, double reach) {
+    // One column after the other: the rest of the way is made beside it.
+    double beside = 0;
+    Eigen::VectorXd size_of_left(p_);
+    in_parallel(2, [&](std::size_t task) {
+      if (task == 0) {
+        beside = norm_beside(op_, of_.X, of_.Y);
+      } else {
+        size_of_left = left_sizes(op_, of_, left_.of_states);
+      }
+    });
+    const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
+    out_.uncertainty += between_ + reach * amplified * size_of_left * size_of_right_.transpose();
+  }
+
+  const Phased& as_;
+  const PerturbationEquations& equations_;
+  const ShiftInverse& op_;
+  const Subspace& of_;
+  const Index n_, p_, algebraic_;  // states, vectors, unknowns beside the states
+  const LeftResiduals<S> left_;
+  const ColumnMatrix rows_;
+  ComplexMatrix G_;  // Yᴴ R
+  Matrix between_;
+  Eigen::VectorXd size_of_right_;
+  SubspacePencil out_;
+};
 
 }  // namespace
 
@@ -303,8 +343,8 @@ SubspacePencil measured(const PerturbationEquations& equations, const ShiftInver
                         double distance, double reach) {
   // Factors of a conservative model say that it is one.
   const auto real = op.symmetric() ? RealSubspace::of(of) : std::nullopt;
-  return real ? measured_as(*real, equations, op, of, distance, reach)
-              : measured_as(ComplexSubspace(of), equations, op, of, distance, reach);
+  if (real) return PencilMeasurement(*real, equations, op, of).run(distance, reach);
+  return PencilMeasurement(ComplexSubspace(of), equations, op, of).run(distance, reach);
 }
 
 }  // namespace dynalin
