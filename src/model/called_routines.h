@@ -96,13 +96,9 @@ class CalledRoutines {
   std::string text(const Statement&, std::string_view name) const;
   std::shared_ptr<const RoutineStatement::ModalLoad> modal_load_of(const Statement&, bool scaled) const;
   CurveStatement curve_of(const Statement&, const RoutineStatement&) const;
-  sAdamsGSE says_of_states(const Statement&, const RoutineConstants&) const;
   std::shared_ptr<const CompiledRoutine> made(const Statement&, const Span& at, FoundRoutine, const RoutineKind&,
                                               std::size_t values, RoutineStatement, StatePartialRoutines = {});
-  struct StateRoutineNames;
-  StateRoutineNames state_routine_names(const Statement&);
-  std::vector<Expression> functions_of(const std::shared_ptr<const CompiledRoutine>&, std::size_t first,
-                                       std::size_t count, const Span& at) const;
+  class StateCalls;
 
   // What is looked up by statement and id, made when something is.
   struct Index {
