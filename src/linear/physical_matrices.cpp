@@ -120,33 +120,61 @@ class PhysicalEquations::Assembly {
     for (const std::size_t k : out_.whole_.with_rate) take(choice_.gradient[k]);
   }
 
+  // Unknowns by x″, x′, x, z and u, then what whole() has of them; false where they do not follow from the motion.
   bool solve() {
-    const Index n = system_.layout().coordinate_count, size = augmented_.size();
+    SparseLu lu;
+    if (!factor(lu)) return false;
+    Matrix x = Matrix::Zero(unknowns(), columns());
+    take_by_equations(x);
+    take_by_held_accelerations(x);
+    for (Index k = 0; k < inputs(); ++k)
+      x(augmented_.algebraic(at_.inputs[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
+    lu.solve(x);
+
+    Variations& v = out_.variations_;
+    v.dqddot = x.topRows(system_.layout().coordinate_count);
+    v.dlambda = x.middleRows(augmented_.lambda(0), rows_.size());
+    v.dw = x.middleRows(augmented_.algebraic(0), static_cast<Index>(system_.layout().algebraic.size()));
+    v.dz_rate = x.middleRows(augmented_.state(0), static_cast<Index>(system_.layout().states.size()));
+    whole().force = out_.split(x.bottomRows(rates()));
+    take_rates();
+    take_outputs();
+    return true;
+  }
+
+  // Those of the augmented matrix and what holds each of x″, with the gradient of whose coordinate it acts.
+  Index unknowns() const { return augmented_.size() + rates(); }
+  std::int32_t held(Index k) const { return static_cast<std::int32_t>(augmented_.size() + k); }
+  const auto& gradient_of_rate(Index k) const {
+    return choice_.gradient[out_.whole_.with_rate[static_cast<std::size_t>(k)]];
+  }
+
+  bool factor(SparseLu& lu) {
     std::vector<Triplet> entries;
     for_each_entry(augmented_.matrix(eq_, rows_, choice_.velocity_active, {}, cut_),
                    [&](std::int32_t r, std::int32_t c, double v) {
                      entries.push_back({r, c, v});
                    });
     for (Index k = 0; k < rates(); ++k) {
-      const auto held = static_cast<std::int32_t>(size + k);
-      for (const auto& e : choice_.gradient[whole().with_rate[static_cast<std::size_t>(k)]]) {
-        entries.push_back({held, e.column, e.c.g});
-        entries.push_back({e.column, held, -e.c.g});
+      for (const auto& e : gradient_of_rate(k)) {
+        entries.push_back({held(k), e.column, e.c.g});
+        entries.push_back({e.column, held(k), -e.c.g});
       }
     }
-    const auto all = static_cast<std::int32_t>(size + rates());
-    SparseLu lu;
-    if (!lu.factor(compressed(all, all, entries))) return false;
+    const auto all = static_cast<std::int32_t>(unknowns());
+    return lu.factor(compressed(all, all, entries));
+  }
 
+  // What motions and states do to the equations.
+  void take_by_equations(Matrix& x) {
     Variations& v = out_.variations_;
     v.dz = Matrix::Zero(static_cast<Index>(system_.layout().states.size()), columns());
     for (Index k = 0; k < states(); ++k) v.dz(choice_.differential[static_cast<std::size_t>(k)], of_states() + k) = 1;
-    Matrix x = Matrix::Zero(all, columns());
     // Column by column: one of either matrix fits where a row of them is spread over all of it.
     const auto subtract = [&](PartialBy family, const Matrix& of) {
       std::vector<Triplet> counted;
       for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double value) {
-        const std::int32_t w = r - static_cast<std::int32_t>(n);
+        const std::int32_t w = r - system_.layout().coordinate_count;
         const bool replaced = w >= 0 && w < static_cast<std::int32_t>(cut_.size()) && cut_[static_cast<std::size_t>(w)];
         if (!replaced) counted.push_back({augmented_.equation(r), c, value});
       });
@@ -156,6 +184,10 @@ class PhysicalEquations::Assembly {
     subtract(PartialBy::velocity, v.dqdot);
     if (!out_.without_damping_) subtract(PartialBy::damping, v.dqdot);
     subtract(PartialBy::state, v.dz);
+  }
+
+  // Constraints and gradients of coordinates, differentiated twice.
+  void take_by_held_accelerations(Matrix& x) const {
     std::vector<Triplet> by_rates, by_positions;
     const auto hold = [&](Index row, const auto& gradient) {
       for (const auto& e : gradient) {
@@ -167,20 +199,16 @@ class PhysicalEquations::Assembly {
       if (choice_.velocity_active[static_cast<std::size_t>(k)]) hold(augmented_.lambda(k), rows_.row(k));
     }
     for (Index k = 0; k < rates(); ++k) {
-      hold(size + k, choice_.gradient[whole().with_rate[static_cast<std::size_t>(k)]]);
-      x(size + k, k) += 1;
+      hold(held(k), gradient_of_rate(k));
+      x(held(k), k) += 1;
     }
-    subtract_products(by_rates, v.dqdot, x);
-    subtract_products(by_positions, v.dq, x);
-    for (Index k = 0; k < inputs(); ++k)
-      x(augmented_.algebraic(at_.inputs[static_cast<std::size_t>(k)]), of_inputs() + k) = 1;
-    lu.solve(x);
+    subtract_products(by_rates, out_.variations_.dqdot, x);
+    subtract_products(by_positions, out_.variations_.dq, x);
+  }
 
-    v.dqddot = x.topRows(n);
-    v.dlambda = x.middleRows(augmented_.lambda(0), rows_.size());
-    v.dw = x.middleRows(augmented_.algebraic(0), static_cast<Index>(system_.layout().algebraic.size()));
-    v.dz_rate = x.middleRows(augmented_.state(0), static_cast<Index>(system_.layout().states.size()));
-    whole().force = out_.split(x.bottomRows(rates()));
+  // Of coordinates and of differential states.
+  void take_rates() {
+    const Variations& v = out_.variations_;
     Matrix rate = Matrix::Zero(coordinates(), columns());
     for (Index k = 0; k < coordinates(); ++k) {
       for (const auto& e : choice_.gradient[static_cast<std::size_t>(k)])
@@ -193,14 +221,18 @@ class PhysicalEquations::Assembly {
       row(of_rates() + k) = 1;
     }
     whole().rate = out_.split(rate);
-    Matrix state_rate(states(), columns()), output(static_cast<Index>(at_.outputs.size()), columns());
+    Matrix state_rate(states(), columns());
     for (Index k = 0; k < states(); ++k)
       state_rate.row(k) = v.dz_rate.row(choice_.differential[static_cast<std::size_t>(k)]);
     whole().state_rate = out_.split(state_rate);
-    for (std::size_t k = 0; k < at_.outputs.size(); ++k) output.row(static_cast<Index>(k)) = v.dw.row(at_.outputs[k]);
+  }
+
+  void take_outputs() {
+    Matrix output(static_cast<Index>(at_.outputs.size()), columns());
+    for (std::size_t k = 0; k < at_.outputs.size(); ++k)
+      output.row(static_cast<Index>(k)) = out_.variations_.dw.row(at_.outputs[k]);
     if (out_.without_damping_) see_damping(output);
     whole().output = out_.split(output);
-    return true;
   }
 
   // Outputs keep what they see of velocities where damping is left out.

@@ -103,7 +103,11 @@ class BoundExpression {
   };
 
   BoundAtom bind(const Atom&, Binder&, Binding);
+  void bind_measure(BoundAtom&, const Atom&, Binder&);
+  void bind_data(BoundAtom&, const Atom&, Binder&, Binding);
   void bind_force(BoundAtom&, Force, const Signals&);
+  static Force force_of_element(const Atom&, Binder&);
+  static Force force_on_marker(const Atom&, Binder&);
   void note_blocks(BoundAtom&, const MarkerFrame&, const Layout&, bool poses_too);
   std::span<const CoordinateBlock> blocks(const BoundAtom& a) const {
     return std::span(atom_blocks_).subspan(a.first_block, a.block_count);

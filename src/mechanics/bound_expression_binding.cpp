@@ -10,11 +10,11 @@ namespace dynalin {
 
 namespace {
 
-// Whether a measure looks at the axes of its k-th marker.
-bool reads_axes(Measure m, std::size_t k) {
+// Whether a measure looks at those of its k-th marker.
+Axes axes_read_by(Measure m, std::size_t k) {
   switch (m) {
     case Measure::INCANG:
-      return false;
+      return Axes::unread;
     case Measure::DX:
     case Measure::DY:
     case Measure::DZ:
@@ -28,9 +28,9 @@ bool reads_axes(Measure m, std::size_t k) {
     case Measure::ACCY:
     case Measure::ACCZ:
     case Measure::ACCM:
-      return k >= 2;
+      return k >= 2 ? Axes::read : Axes::unread;
     default:
-      return true;
+      return Axes::read;
   }
 }
 
@@ -95,7 +95,7 @@ bool is_constant_on_a_body(Measure m) {
 }
 
 // A floating marker has no place of its own.
-MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool axes) {
+MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, Axes axes) {
   const Signals& signals = binder.signals();
   const MarkerId m = signals.marker(id);
   if (!signals.has_place(m)) {
@@ -103,7 +103,7 @@ MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, bool 
                    std::string(atom.at.text()) + " reads " + signals.layout().marker_label(m).full_text() +
                        ", a floating marker that no element gives a place");
   }
-  return frame_of_marker(signals, m, axes ? Axes::read : Axes::unread);
+  return frame_of_marker(signals, m, axes);
 }
 
 }  // namespace
@@ -164,97 +164,113 @@ const Atom* BoundExpression::atom_on_curve() const {
 }
 
 BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binder, Binding binding) {
-  const Signals& signals = binder.signals();
-  using Kind = BoundAtom::Kind;
   BoundAtom a{};
   a.first_block = static_cast<std::uint32_t>(atom_blocks_.size());
-  const AtomFunction& f = *atom.function;
-  switch (f.family) {
+  switch (atom.function->family) {
     case AtomFamily::time:
-      a.kind = Kind::time;
+      a.kind = BoundAtom::Kind::time;
       break;
-    case AtomFamily::marker_measure: {
-      a.kind = Kind::measure;
-      a.measure = *f.measure;
-      a.order = f.order;
-      a.places.fill({&signals.layout().marker(signals.marker(0))});
-      for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {
-        const auto role = role_of_argument(a.measure, argument);
-        if (role) a.places[*role] = find_marker(binder, atom, atom.argument[argument], reads_axes(a.measure, *role));
-      }
-      // Rounding of what never changes is no gradient, least of all at a kink.
-      const auto rigid = [&](std::size_t k) { return !a.places[k].curve && !a.places[k].place().shapes; };
-      const bool one_body = a.places[0].place().body == a.places[1].place().body && rigid(0) && rigid(1);
-      const bool constant = one_body && is_constant_on_a_body(a.measure);
-      for (const MarkerFrame& place : a.places) note_blocks(a, place, signals.layout(), !constant);
-      if (counts_turns(a.measure))
-        a.memory = binder.count_turns(a.measure, signals.marker(atom.argument[0]), signals.marker(atom.argument[1]));
+    case AtomFamily::marker_measure:
+      bind_measure(a, atom, binder);
       break;
-    }
     case AtomFamily::data:
-      if (f.reads == DataSource::analysis) {
-        a.kind = Kind::mode;
-        if (binding != Binding::observation) binder.note_analysis();
-        break;
-      }
-      if (const auto progress = read_of_integration(f.reads)) {
-        a.kind = Kind::progress;
-        a.progress = progress;
-        break;
-      }
-      if (f.reads == DataSource::sensor) {
-        a.kind = Kind::remembered;
-        a.kept = binder.sensor_value(atom.argument[0]);
-        break;
-      }
-      if (f.reads == DataSource::state_rate && (binding == Binding::condition || binding == Binding::condition_rates)) {
-        a.kind = Kind::constant;
-        break;
-      }
-      if (f.reads == DataSource::none) {
-        binder.problem(
-            "misplaced-function", atom.at,
-            std::string(f.name) + " belongs to a place along a beam, which only the components of an FE_LOAD have");
-        a.kind = Kind::constant;
-        break;
-      }
-      a.channel = binder.data(atom);
-      if (a.channel.kind == Channel::Kind::none) {
-        binder.problem("unfilled-entry", atom.at,
-                       std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
-        a.channel = {Channel::Kind::constant, 0, 0};
-      }
-      a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
-      a.constant = a.channel.constant;
+      bind_data(a, atom, binder, binding);
       break;
     case AtomFamily::delay:
-      a.kind = Kind::channel;
+      a.kind = BoundAtom::Kind::channel;
       a.channel = binder.delayed(atom);
       break;
-    case AtomFamily::element_force: {
-      Force force;
-      if (const Signals::Wrench w = signals.wrench(f.statement, atom.argument[0]); w.source) {
-        force.terms.push_back({w, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
-      }
-      force.component = static_cast<std::uint8_t>(atom.argument[2]);
-      force.axes_marker = find_marker(binder, atom, atom.argument[3], true);
-      bind_force(a, std::move(force), signals);
+    case AtomFamily::element_force:
+      bind_force(a, force_of_element(atom, binder), binder.signals());
       break;
-    }
-    case AtomFamily::marker_force: {
-      Force force;
-      static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
-      force.component = static_cast<std::uint8_t>(std::find(names.begin(), names.end(), f.name) - names.begin() + 1);
-      const MarkerId i = signals.marker(atom.argument[0]);
-      const bool from_all = atom.argument[1] == 0;
-      const auto j = from_all ? std::nullopt : std::optional(signals.marker(atom.argument[1]));
-      for (const MarkerLoad& l : loads_on(signals, i, j)) force.terms.push_back({l.wrench, l.on_J});
-      force.axes_marker = find_marker(binder, atom, atom.argument[2], true);
-      bind_force(a, std::move(force), signals);
+    case AtomFamily::marker_force:
+      bind_force(a, force_on_marker(atom, binder), binder.signals());
       break;
-    }
   }
   return a;
+}
+
+void BoundExpression::bind_measure(BoundAtom& a, const Atom& atom, Binder& binder) {
+  const Signals& signals = binder.signals();
+  a.kind = BoundAtom::Kind::measure;
+  a.measure = *atom.function->measure;
+  a.order = atom.function->order;
+  a.places.fill({&signals.layout().marker(signals.marker(0))});
+  for (std::size_t argument = 0; argument < atom.argument_count; ++argument) {
+    const auto role = role_of_argument(a.measure, argument);
+    if (role) a.places[*role] = find_marker(binder, atom, atom.argument[argument], axes_read_by(a.measure, *role));
+  }
+  // Rounding of what never changes is no gradient, least of all at a kink.
+  const auto rigid = [&](std::size_t k) { return !a.places[k].curve && !a.places[k].place().shapes; };
+  const bool one_body = a.places[0].place().body == a.places[1].place().body && rigid(0) && rigid(1);
+  const bool constant = one_body && is_constant_on_a_body(a.measure);
+  for (const MarkerFrame& place : a.places) note_blocks(a, place, signals.layout(), !constant);
+  if (counts_turns(a.measure))
+    a.memory = binder.count_turns(a.measure, signals.marker(atom.argument[0]), signals.marker(atom.argument[1]));
+}
+
+void BoundExpression::bind_data(BoundAtom& a, const Atom& atom, Binder& binder, Binding binding) {
+  using Kind = BoundAtom::Kind;
+  const AtomFunction& f = *atom.function;
+  if (const auto progress = read_of_integration(f.reads)) {
+    a.kind = Kind::progress;
+    a.progress = progress;
+    return;
+  }
+  switch (f.reads) {
+    case DataSource::analysis:
+      a.kind = Kind::mode;
+      if (binding != Binding::observation) binder.note_analysis();
+      return;
+    case DataSource::sensor:
+      a.kind = Kind::remembered;
+      a.kept = binder.sensor_value(atom.argument[0]);
+      return;
+    case DataSource::none:
+      binder.problem(
+          "misplaced-function", atom.at,
+          std::string(f.name) + " belongs to a place along a beam, which only the components of an FE_LOAD have");
+      a.kind = Kind::constant;
+      return;
+    case DataSource::state_rate:
+      if (binding != Binding::condition && binding != Binding::condition_rates) break;
+      a.kind = Kind::constant;
+      return;
+    default:
+      break;
+  }
+  a.channel = binder.data(atom);
+  if (a.channel.kind == Channel::Kind::none) {
+    binder.problem("unfilled-entry", atom.at,
+                   std::string(atom.at.text()) + " reads an entry that does not exist, or that nothing fills");
+    a.channel = {Channel::Kind::constant, 0, 0};
+  }
+  a.kind = a.channel.kind == Channel::Kind::constant ? Kind::constant : Kind::channel;
+  a.constant = a.channel.constant;
+}
+
+BoundExpression::Force BoundExpression::force_of_element(const Atom& atom, Binder& binder) {
+  Force force;
+  if (const Signals::Wrench w = binder.signals().wrench(atom.function->statement, atom.argument[0]); w.source) {
+    force.terms.push_back({w, atom.argument[1] == 1});  // an element taken out of the model exerts nothing
+  }
+  force.component = static_cast<std::uint8_t>(atom.argument[2]);
+  force.axes_marker = find_marker(binder, atom, atom.argument[3], Axes::read);
+  return force;
+}
+
+BoundExpression::Force BoundExpression::force_on_marker(const Atom& atom, Binder& binder) {
+  static constexpr std::array<std::string_view, 8> names = {"FM", "FX", "FY", "FZ", "TM", "TX", "TY", "TZ"};
+  const Signals& signals = binder.signals();
+  Force force;
+  const auto* const name = std::find(names.begin(), names.end(), atom.function->name);
+  force.component = static_cast<std::uint8_t>(name - names.begin() + 1);
+  const MarkerId i = signals.marker(atom.argument[0]);
+  const bool from_all = atom.argument[1] == 0;
+  const auto j = from_all ? std::nullopt : std::optional(signals.marker(atom.argument[1]));
+  for (const MarkerLoad& l : loads_on(signals, i, j)) force.terms.push_back({l.wrench, l.on_J});
+  force.axes_marker = find_marker(binder, atom, atom.argument[2], Axes::read);
+  return force;
 }
 
 }  // namespace dynalin

@@ -199,24 +199,95 @@ std::vector<std::size_t> spanning(const LinearSystem& linear, const EigenSolutio
   return chosen;
 }
 
+tl::unexpected<Failure> no_modal_energy(std::string why) {
+  return tl::unexpected(Failure{"energies per mode", std::move(why), {}, "no-modal-energy"});
+}
+
+// x of the states that are coordinates, from where the linear model would rest: K x = −(M x″ + C x′).
+Result<Eigen::VectorXd> displacement_from_rest(const System& system, const LinearSystem& linear,
+                                               const std::vector<Index>& position, const AlongStates& along,
+                                               const StateMotion& at_point) {
+  // The accelerations are those of all forces, also where the linear model leaves their damping out.
+  Eigen::VectorXd balance = along.M * at_point.acceleration;
+  if (linear.at->without_damping) {
+    const auto damped = along_states(system, linear, position, DampingOfForces::whole);
+    if (!damped) return tl::unexpected(damped.error());
+    balance += damped->C * at_point.rate;
+  } else {
+    balance += along.C * at_point.rate;
+  }
+  return Eigen::VectorXd(along.K.completeOrthogonalDecomposition().solve(-balance));
+}
+
+// η of Φ η = x, with as many modes as there are coordinates.
+class ModalCoordinates {
+ public:
+  // Rows by the root of their mass, so that lengths and angles compare. Fails where shapes do not span the coordinates.
+  static Result<ModalCoordinates> make(const LinearSystem& linear, const EigenSolution& modes,
+                                       const std::vector<Index>& position, const Matrix& M) {
+    ModalCoordinates out;
+    out.unit_ = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });
+    const ComplexMatrix shapes = out.unit_.cast<Complex>().asDiagonal() * modes.vectors(position, Eigen::all);
+    out.chosen_ = spanning(linear, modes, shapes);
+    const auto n = static_cast<Index>(position.size());
+    if (static_cast<Index>(out.chosen_.size()) < n) {
+      return no_modal_energy(fmt::format(
+          "the modal matrix is singular: the shapes of all modes span {} of {} coordinates", out.chosen_.size(), n));
+    }
+    // Shapes of like size: what a controller moves beside its own states may be small in any unit, and is no rounding.
+    out.Phi_.resize(n, n);
+    for (Index c = 0; c < n; ++c) {
+      const auto k = static_cast<Index>(out.chosen_[static_cast<std::size_t>(c)]);
+      out.Phi_.col(c) = modes.vectors(position, k) / shapes.col(k).norm();
+    }
+    out.lu_.compute(out.unit_.cast<Complex>().asDiagonal() * out.Phi_);
+    return out;
+  }
+
+  // Mode by mode of Φ.
+  const std::vector<std::size_t>& modes() const { return chosen_; }
+  Eigen::VectorXcd of(const Eigen::VectorXd& x) const {
+    return lu_.solve(Eigen::VectorXcd(unit_.cwiseProduct(x).cast<Complex>()));
+  }
+  // e_iᴴ Σ_j (ΦᴴmΦ)_ij e_j
+  double share(const Matrix& m, const Eigen::VectorXcd& e, Index i) const {
+    return std::real(std::conj(e(i)) * Phi_.col(i).dot(times(m, Phi_ * e).col(0)));
+  }
+
+ private:
+  ModalCoordinates() = default;
+
+  Eigen::VectorXd unit_;
+  std::vector<std::size_t> chosen_;
+  ComplexMatrix Phi_;
+  Eigen::FullPivLU<ComplexMatrix> lu_;
+};
+
+// Shares that are rounding beside those of other modes.
+void drop_unexcited(std::vector<EnergyPerMode::Share>& modes) {
+  using Share = EnergyPerMode::Share;
+  for (double Share::*of : {&Share::kinetic, &Share::potential, &Share::power}) {
+    double size = 0;
+    for (const Share& s : modes) size += std::abs(s.*of);
+    for (Share& s : modes) {
+      if (std::abs(s.*of) <= unexcited * size) s.*of = 0;
+    }
+  }
+}
+
 }  // namespace
 
 Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                       const EigenSolution& modes) {
   const auto [position, rate] = pairs_of(linear);
   if (linear.first_order > 0) {
-    return tl::unexpected(Failure{"energies per mode",
-                                  "a model with coordinates of first order, of freedoms that have damping and no mass, "
-                                  "has fewer rates than coordinates: its shapes do not share out its energy",
-                                  {},
-                                  "no-modal-energy"});
+    return no_modal_energy(
+        "a model with coordinates of first order, of freedoms that have damping and no mass, has fewer rates than "
+        "coordinates: its shapes do not share out its energy");
   }
   if (position.size() != rate.size()) {
-    return tl::unexpected(Failure{"energies per mode",
-                                  "a model with velocity constraints has fewer rates than coordinates: its shapes do "
-                                  "not share out its energy",
-                                  {},
-                                  "no-modal-energy"});
+    return no_modal_energy(
+        "a model with velocity constraints has fewer rates than coordinates: its shapes do not share out its energy");
   }
   const auto n = static_cast<Index>(position.size()), states = static_cast<Index>(linear.model.states.size());
   EnergyPerMode out;
@@ -229,59 +300,22 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   const auto along = along_states(system, linear, position, DampingOfForces::as_linearized);
   if (!along) return tl::unexpected(along.error());
   const Matrix &C = along->C, &K = along->K;
-  const auto [v, a] = motion_of_states(op, linear.at->choice, position);
-  // The accelerations are those of all forces, also where the linear model leaves their damping out.
-  Eigen::VectorXd balance = along->M * a;
-  if (linear.at->without_damping) {
-    const auto damped = along_states(system, linear, position, DampingOfForces::whole);
-    if (!damped) return tl::unexpected(damped.error());
-    balance += damped->C * v;
-  } else {
-    balance += C * v;
-  }
-  const Eigen::VectorXd x = K.completeOrthogonalDecomposition().solve(-balance);
-
-  // Rows by the root of their mass, so that lengths and angles compare.
-  const Eigen::VectorXd unit = M.diagonal().cwiseSqrt().unaryExpr([](double m) { return m > 0 ? m : 1.0; });
-  const ComplexMatrix shapes = unit.cast<Complex>().asDiagonal() * modes.vectors(position, Eigen::all);
-  const std::vector<std::size_t> chosen = spanning(linear, modes, shapes);
-  if (static_cast<Index>(chosen.size()) < n) {
-    return tl::unexpected(
-        Failure{"energies per mode",
-                fmt::format("the modal matrix is singular: the shapes of all modes span {} of {} coordinates",
-                            chosen.size(), n),
-                {},
-                "no-modal-energy"});
-  }
-  // Shapes of like size: what a controller moves beside its own states may be small in any unit, and is no rounding.
-  ComplexMatrix Phi(n, n);
-  for (Index c = 0; c < n; ++c) {
-    const auto k = static_cast<Index>(chosen[static_cast<std::size_t>(c)]);
-    Phi.col(c) = modes.vectors(position, k) / shapes.col(k).norm();
-  }
-  const Eigen::FullPivLU<ComplexMatrix> lu(unit.cast<Complex>().asDiagonal() * Phi);
-  const Eigen::VectorXcd eta = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(x).cast<Complex>()));
-  const Eigen::VectorXcd eta_rate = lu.solve(Eigen::VectorXcd(unit.cwiseProduct(v).cast<Complex>()));
-
-  const auto share = [&](const Matrix& m, const Eigen::VectorXcd& e, Index i) {
-    return std::real(std::conj(e(i)) * Phi.col(i).dot(times(m, Phi * e).col(0)));
-  };
+  const StateMotion at_point = motion_of_states(op, linear.at->choice, position);
+  const auto x = displacement_from_rest(system, linear, position, *along, at_point);
+  if (!x) return tl::unexpected(x.error());
+  const auto modal = ModalCoordinates::make(linear, modes, position, M);
+  if (!modal) return tl::unexpected(modal.error());
+  const Eigen::VectorXcd eta = modal->of(*x), eta_rate = modal->of(at_point.rate);
   for (Index i = 0; i < n; ++i) {
-    EnergyPerMode::Share& s = out.modes[chosen[static_cast<std::size_t>(i)]];
-    s.kinetic = 0.5 * share(M, eta_rate, i);
-    s.potential = 0.5 * share(K, eta, i);
-    s.power = share(C, eta_rate, i);
-    out.counted[chosen[static_cast<std::size_t>(i)]] = true;
+    const std::size_t mode = modal->modes()[static_cast<std::size_t>(i)];
+    EnergyPerMode::Share& s = out.modes[mode];
+    s.kinetic = 0.5 * modal->share(M, eta_rate, i);
+    s.potential = 0.5 * modal->share(K, eta, i);
+    s.power = modal->share(C, eta_rate, i);
+    out.counted[mode] = true;
     out.total.kinetic += s.kinetic, out.total.potential += s.potential, out.total.power += s.power;
   }
-  for (double EnergyPerMode::Share::*of :
-       {&EnergyPerMode::Share::kinetic, &EnergyPerMode::Share::potential, &EnergyPerMode::Share::power}) {
-    double size = 0;
-    for (const EnergyPerMode::Share& s : out.modes) size += std::abs(s.*of);
-    for (EnergyPerMode::Share& s : out.modes) {
-      if (std::abs(s.*of) <= unexcited * size) s.*of = 0;
-    }
-  }
+  drop_unexcited(out.modes);
   return out;
 }
 
