@@ -7,29 +7,24 @@
 
 namespace dynalin {
 
-namespace {
-
 template <std::size_t N>
-void add_measure_gradient(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
-                          const CoordinateBlock& block, Equations& eq, std::int32_t row, double factor,
-                          bool passes_over, PartialBy velocity_family) {
+void BoundExpression::add_measure_gradient(const BoundAtom& a, const Motion& motion, const CoordinateBlock& block,
+                                           const IntoEquation& into, double factor, bool passes_over) {
   const auto g = [&] {
     if constexpr (N == 6) {
-      return path::varied_displacement(measure, places, motion, block).partial;
+      return path::varied_displacement(a.measure, a.places, motion, block).partial;
     } else {
-      return path::varied_measure<N>(measure, places, motion, block).value.partial;
+      return path::varied_measure<N>(a.measure, a.places, motion, block).value.partial;
     }
   }();
-  const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
+  const std::array families = {PartialBy::position, into.velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const double value = g[6 * level + static_cast<std::size_t>(k)];
-      eq.add(families[level], row, block.column + k, factor == 0.0 && passes_over ? 0.0 : factor * value);
+      into.eq.add(families[level], into.row, block.column + k, factor == 0.0 && passes_over ? 0.0 : factor * value);
     }
   }
 }
-
-}  // namespace
 
 double BoundExpression::atom_value(const BoundAtom& a, const Motion& motion) const {
   using Kind = BoundAtom::Kind;
@@ -130,7 +125,7 @@ void BoundExpression::add(const Motion& motion, Equations& eq, std::int32_t row,
     const bool flat = is_size(atoms_[k]) && scratch.atoms[k] == 0.0;
     const double partial = flat ? 0.0 : factor * scratch.partials[k];
     eq.begin_term(partial);
-    add_atom(atoms_[k], motion, eq, row, partial, flat || partial != 0.0 || passes_over(k, scratch), velocity_family);
+    add_atom(atoms_[k], motion, {eq, row, velocity_family}, partial, flat || partial != 0.0 || passes_over(k, scratch));
   }
   eq.end_terms();
 }
@@ -142,20 +137,20 @@ bool BoundExpression::passes_over(std::size_t atom, const ExpressionScratch& scr
   return !jumps || !expression_.reaches(atom, scratch.plain);
 }
 
-void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row, double factor,
-                               bool passes_over, PartialBy velocity_family) const {
+void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, const IntoEquation& into, double factor,
+                               bool passes_over) const {
   using Kind = BoundAtom::Kind;
   if (a.kind == Kind::channel) {
     const PartialBy family = a.channel.kind == Channel::Kind::algebraic ? PartialBy::algebraic
                              : a.channel.kind == Channel::Kind::state   ? PartialBy::state
                                                                         : PartialBy::state_rate;
-    eq.add(family, row, a.channel.index, factor);
+    into.eq.add(family, into.row, a.channel.index, factor);
   } else if (a.kind == Kind::force) {
-    add_force(a, motion, eq, row, factor, velocity_family);
+    add_force(a, motion, into, factor);
   } else if (a.kind == Kind::measure) {
     for (const CoordinateBlock& block : blocks(a)) {
       const auto add_levels = [&]<std::size_t N>() {
-        add_measure_gradient<N>(a.measure, a.places, motion, block, eq, row, factor, passes_over, velocity_family);
+        add_measure_gradient<N>(a, motion, block, into, factor, passes_over);
       };
       if (a.order == 0) add_levels.operator()<6>();
       if (a.order == 1) add_levels.operator()<12>();
@@ -164,13 +159,10 @@ void BoundExpression::add_atom(const BoundAtom& a, const Motion& motion, Equatio
   }
 }
 
-namespace {
-
 template <std::size_t N>
-void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
-                     const CoordinateBlock& block, ConstraintRows& rows, std::int32_t row, const Taylor& partial,
-                     RowLevel row_level) {
-  const path::Seeded<N> m = path::varied_measure<N>(measure, places, motion, block);
+void BoundExpression::add_block_to_row(const BoundAtom& a, const Motion& motion, const CoordinateBlock& block,
+                                       const IntoConstraint& into, const Taylor& partial) {
+  const path::Seeded<N> m = path::varied_measure<N>(a.measure, a.places, motion, block);
   const bool nothing = partial.value == 0.0 && partial.rate == 0.0 && partial.acceleration == 0.0;
   // δX = Σ X_l δq^(l) and its rate, both times the partial e_X(t) of the expression.
   for (std::int32_t k = 0; k < block.count; ++k) {
@@ -180,42 +172,40 @@ void add_measure_row(Measure measure, const std::array<MarkerFrame, 4>& places, 
       return nothing ? Taylor() : partial * course;
     };
     const std::int32_t column = block.column + k;
-    if (row_level == RowLevel::position) {
-      rows.add_coordinate(row, column, at(0));
+    if (into.level == RowLevel::position) {
+      into.rows.add_coordinate(into.row, column, at(0));
     } else if constexpr (N == 6) {
       const Taylor c0 = at(0);  // a displacement inside a velocity row has no δq′ of its own
-      rows.add(row, column, {0.0, c0.value, c0.value, c0.rate});
+      into.rows.add(into.row, column, {0.0, c0.value, c0.value, c0.rate});
     } else {
       const Taylor c0 = at(0), c1 = at(1);
-      rows.add(row, column, {c1.value, c0.value, c1.rate, c0.rate});
+      into.rows.add(into.row, column, {c1.value, c0.value, c1.rate, c0.rate});
     }
   }
 }
 
-}  // namespace
-
-void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motion, ConstraintRows& rows,
-                                         std::int32_t row, const Taylor& partial, RowLevel level) const {
+void BoundExpression::add_measure_to_row(const BoundAtom& a, const Motion& motion, const IntoConstraint& into,
+                                         const Taylor& partial) const {
   for (const CoordinateBlock& block : blocks(a)) {
     if (a.order == 0) {
-      add_measure_row<6>(a.measure, a.places, motion, block, rows, row, partial, level);
+      add_block_to_row<6>(a, motion, block, into, partial);
     } else {
-      add_measure_row<12>(a.measure, a.places, motion, block, rows, row, partial, level);
+      add_block_to_row<12>(a, motion, block, into, partial);
     }
   }
 }
 
 template <class Factor>
-Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, std::int32_t row, const Factor& factor,
-                                   RowLevel level, std::span<const Taylor> given) const {
-  ExpressionScratch& scratch = rows.scratch;
+Taylor BoundExpression::add_to_row(const Motion& motion, const IntoConstraint& into, const Factor& factor,
+                                   std::span<const Taylor> given) const {
+  ExpressionScratch& scratch = into.rows.scratch;
   scratch.taylor_partials.resize(atoms_.size());
   fill_along_motion(motion, given, scratch.taylor_atoms);
   const Taylor e =
       expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     if (atoms_[k].kind == BoundAtom::Kind::measure) {
-      add_measure_to_row(atoms_[k], motion, rows, row, factor * scratch.taylor_partials[k], level);
+      add_measure_to_row(atoms_[k], motion, into, factor * scratch.taylor_partials[k]);
     }
   }
   return factor * e;
@@ -223,17 +213,17 @@ Taylor BoundExpression::add_to_row(const Motion& motion, ConstraintRows& rows, s
 
 Taylor BoundExpression::add_position(const Motion& motion, ConstraintRows& rows, std::int32_t row,
                                      double factor) const {
-  return add_to_row(motion, rows, row, factor, RowLevel::position, {});
+  return add_to_row(motion, {rows, row, RowLevel::position}, factor, {});
 }
 
 void BoundExpression::add_position(const Motion& motion, ConstraintRows& rows, std::int32_t row, const Taylor& factor,
                                    std::span<const Taylor> given) const {
-  add_to_row(motion, rows, row, factor, RowLevel::position, given);
+  add_to_row(motion, {rows, row, RowLevel::position}, factor, given);
 }
 
 Taylor BoundExpression::add_velocity(const Motion& motion, ConstraintRows& rows, std::int32_t row,
                                      double factor) const {
-  return add_to_row(motion, rows, row, factor, RowLevel::velocity, {});
+  return add_to_row(motion, {rows, row, RowLevel::velocity}, factor, {});
 }
 
 namespace {

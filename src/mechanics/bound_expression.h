@@ -79,6 +79,17 @@ class BoundExpression {
   Lack undefined(const Motion&, Derivatives = Derivatives::first) const;
 
  private:
+  // Where partials go; those by velocities to a family of their own.
+  struct IntoEquation {
+    Equations& eq;
+    std::int32_t row;
+    PartialBy velocity_family;
+  };
+  struct IntoConstraint {
+    ConstraintRows& rows;
+    std::int32_t row;
+    RowLevel level;
+  };
   struct ForceTerm {
     Signals::Wrench wrench;
     bool on_J = false;
@@ -117,19 +128,28 @@ class BoundExpression {
   void fill_rates(const Motion&, ExpressionScratch&) const;  // atoms with their values and rates
   Taylor atom_along_motion(const BoundAtom&, const Motion&) const;
   // A factor of zero leaves nothing of a gradient that is not defined, if `passes_over`.
-  void add_atom(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor, bool passes_over,
-                PartialBy velocity_family) const;
+  void add_atom(const BoundAtom&, const Motion&, const IntoEquation&, double factor, bool passes_over) const;
+  template <std::size_t N>
+  static void add_measure_gradient(const BoundAtom&, const Motion&, const CoordinateBlock&, const IntoEquation&,
+                                   double factor, bool passes_over);
   bool has_gradient(const BoundAtom&, const Motion&) const;
   bool is_size_of_nothing(const BoundAtom&, const Motion&) const;
-  void add_force(const BoundAtom&, const Motion&, Equations&, std::int32_t row, double factor,
-                 PartialBy velocity_family) const;
+  void add_force(const BoundAtom&, const Motion&, const IntoEquation&, double factor) const;
+  // Partials of X and X′ of a measure by δq, δq′ … of one block.
+  struct Factors {
+    double of_value, of_rate;
+  };
+  template <std::size_t N>
+  static void add_measure_rate(const BoundAtom&, const Motion&, const CoordinateBlock&, const IntoEquation&,
+                               const Factors&);
   // Adds partial · (path gradient of the measure) at the levels a constraint row has.
-  void add_measure_to_row(const BoundAtom&, const Motion&, ConstraintRows&, std::int32_t row, const Taylor& partial,
-                          RowLevel level) const;
+  void add_measure_to_row(const BoundAtom&, const Motion&, const IntoConstraint&, const Taylor& partial) const;
+  template <std::size_t N>
+  static void add_block_to_row(const BoundAtom&, const Motion&, const CoordinateBlock&, const IntoConstraint&,
+                               const Taylor& partial);
   void fill_along_motion(const Motion&, std::span<const Taylor> given, std::vector<Taylor>& atoms) const;
   template <class Factor>
-  Taylor add_to_row(const Motion&, ConstraintRows&, std::int32_t row, const Factor& factor, RowLevel level,
-                    std::span<const Taylor> given) const;
+  Taylor add_to_row(const Motion&, const IntoConstraint&, const Factor& factor, std::span<const Taylor> given) const;
 
   double gradient(const ExpressionScratch&, std::size_t atom, const CoordinateBlock&, std::size_t seed) const;
   // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.

@@ -42,8 +42,10 @@ bool BoundExpression::is_size_of_nothing(const BoundAtom& a, const Motion& motio
   return is_magnitude(a.force->component) && force_value(a, motion) == 0.0;
 }
 
-void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equations& eq, std::int32_t row,
-                                double factor, PartialBy velocity_family) const {
+void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, const IntoEquation& into,
+                                double factor) const {
+  Equations& eq = into.eq;
+  const std::int32_t row = into.row;
   const Force& of = *a.force;
   const LoadPart part = part_of(of.component);
   const bool torque = part == LoadPart::torque;
@@ -107,11 +109,11 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, Equati
           value -= kink && norm(lever) != 0.0 ? std::numeric_limits<double>::quiet_NaN() : dot(e, lever);
         }
         eq.add(PartialBy::position, row, column, factor * value);
-        eq.add(velocity_family, row, column, factor * picked(on.force_by_rate[k], on.torque_by_rate[k]));
+        eq.add(into.velocity_family, row, column, factor * picked(on.force_by_rate[k], on.torque_by_rate[k]));
       }
     });
     for (const MarkerWrench::Scalar& s : w.scalars) {
-      const PartialBy family = s.family == PartialBy::damping ? velocity_family : s.family;
+      const PartialBy family = s.family == PartialBy::damping ? into.velocity_family : s.family;
       eq.add(family, row, s.column, factor * picked(s.force, s.torque));
     }
     for (const MarkerWrench::Turn& turn : w.turns) {

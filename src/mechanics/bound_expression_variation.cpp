@@ -258,26 +258,20 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
   }
 }
 
-namespace {
-
-// Partials of X and X′ of a measure by δq, δq′ … of one block.
 template <std::size_t N>
-void add_measure_rate(Measure measure, const std::array<MarkerFrame, 4>& places, const Motion& motion,
-                      const CoordinateBlock& block, Equations& eq, std::int32_t row, double by_value, double by_rate,
-                      PartialBy velocity_family) {
-  const auto m = path::varied_measure<N>(measure, places, motion, block);
-  const std::array families = {PartialBy::position, velocity_family, PartialBy::acceleration};
+void BoundExpression::add_measure_rate(const BoundAtom& a, const Motion& motion, const CoordinateBlock& block,
+                                       const IntoEquation& into, const Factors& factors) {
+  const auto m = path::varied_measure<N>(a.measure, a.places, motion, block);
+  const std::array families = {PartialBy::position, into.velocity_family, PartialBy::acceleration};
   for (std::size_t level = 0; 6 * level < N; ++level) {
     for (std::int32_t k = 0; k < block.count; ++k) {
       const std::size_t seed = 6 * level + static_cast<std::size_t>(k);
       const auto times = [](double factor, double gradient) { return factor == 0.0 ? 0.0 : factor * gradient; };
-      eq.add(families[level], row, block.column + k,
-             times(by_value, m.value.partial[seed]) + times(by_rate, m.rate.partial[seed]));
+      into.eq.add(families[level], into.row, block.column + k,
+                  times(factors.of_value, m.value.partial[seed]) + times(factors.of_rate, m.rate.partial[seed]));
     }
   }
 }
-
-}  // namespace
 
 void BoundExpression::fill_rates(const Motion& motion, ExpressionScratch& scratch) const {
   using Kind = BoundAtom::Kind;
@@ -311,6 +305,7 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
       expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
   eq.add_residual(row, factor * e.rate);
   if (!eq.wants_partials()) return;
+  const IntoEquation into{eq, row, velocity_family};
   for (std::size_t k = 0; k < atoms_.size(); ++k) {
     const BoundAtom& a = atoms_[k];
     const double by_value = factor * scratch.taylor_partials[k].rate,
@@ -318,9 +313,9 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
     if (a.kind == Kind::measure) {
       for (const CoordinateBlock& block : blocks(a)) {
         if (a.order == 0) {
-          add_measure_rate<12>(a.measure, a.places, motion, block, eq, row, by_value, by_rate, velocity_family);
+          add_measure_rate<12>(a, motion, block, into, {by_value, by_rate});
         } else {
-          add_measure_rate<18>(a.measure, a.places, motion, block, eq, row, by_value, by_rate, velocity_family);
+          add_measure_rate<18>(a, motion, block, into, {by_value, by_rate});
         }
       }
     } else if (a.kind == Kind::channel) {

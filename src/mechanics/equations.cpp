@@ -154,21 +154,21 @@ void Equations::apply_at(BodyId body, const Vector& arm, const Vector& force, co
   }
 }
 
-void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                          double factor, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) {
-    add_column(family, on, column + static_cast<std::int32_t>(k), force[k], moment[k], factor);
+void Equations::add_block(PartialBy family, BodyId on, Columns columns, const Block& partials, double factor) {
+  for (std::size_t k = 0; k < columns.count; ++k) {
+    add_column(family, on, columns.first + static_cast<std::int32_t>(k), partials.force[k], partials.moment[k], factor);
   }
 }
 
-void Equations::add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                          const BlockSizes& sizes, double factor, std::size_t count) {
+void Equations::add_block(PartialBy family, BodyId on, Columns columns, const Block& partials, const Block& sizes,
+                          double factor) {
   const BodyBlock& block = layout_->body(on);
   if (block.count == 0 || !wants(family)) return;
   const auto rows = static_cast<std::size_t>(block.count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto values = six(factor, force[k], moment[k]), of = six(factor, sizes.force[k], sizes.moment[k]);
-    add(family, block.offset, column + static_cast<std::int32_t>(k), std::span(values).first(rows),
+  for (std::size_t k = 0; k < columns.count; ++k) {
+    const auto values = six(factor, partials.force[k], partials.moment[k]),
+               of = six(factor, sizes.force[k], sizes.moment[k]);
+    add(family, block.offset, columns.first + static_cast<std::int32_t>(k), std::span(values).first(rows),
         std::span(of).first(rows));
   }
 }

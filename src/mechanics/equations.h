@@ -238,16 +238,18 @@ class Equations {
     matrices_[static_cast<std::size_t>(family)].add(row, column, values, sizes);
   }
   bool keeps_sizes() const { return keeps_sizes_; }
-  // Partials of force and moment on `on` with respect to `count` coordinates starting at `column`:
-  // column k of `force` and `moment` belongs to coordinate column + k.
-  void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                 double factor = -1.0, std::size_t count = 3);
-  // What these have been added up from; asked for where sizes are kept.
-  struct BlockSizes {
+  // Coordinates side by side, of which each has a column of a block.
+  struct Columns {
+    std::int32_t first;
+    std::size_t count = 3;
+  };
+  struct Block {
     Matrix3 force, moment;
   };
-  void add_block(PartialBy family, BodyId on, std::int32_t column, const Matrix3& force, const Matrix3& moment,
-                 const BlockSizes&, double factor, std::size_t count);
+  // Partials of force and moment on `on` with respect to these, times `factor`.
+  void add_block(PartialBy family, BodyId on, Columns, const Block&, double factor);
+  // The same with what they have been added up from; asked for where sizes are kept.
+  void add_block(PartialBy family, BodyId on, Columns, const Block&, const Block& sizes, double factor);
   // The same with respect to one scalar unknown.
   void add_column(PartialBy family, BodyId on, std::int32_t column, const Vector& force, const Vector& moment,
                   double factor = -1.0);

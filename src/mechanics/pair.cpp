@@ -228,10 +228,11 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
     const auto add = [&](PartialBy family, const Matrix3& F, const Matrix3& T, const Matrix3& I_moved,
                          const Matrix3& J_moved, const Matrix3& size_of_F, const Matrix3& size_of_T) {
       const auto add_to = [&](BodyId body, double sign, const Matrix3& to, const Matrix3& arm) {
-        const Matrix3 moment = to * F + T + arm;
-        if (!eq.keeps_sizes()) return eq.add_block(family, body, b.column, F, moment, sign, b.count);
-        eq.add_block(family, body, b.column, F, moment, {size_of_F, sizes(to) * size_of_F + size_of_T + sizes(arm)},
-                     sign, b.count);
+        const Equations::Columns columns{b.column, b.count};
+        const Equations::Block partials{F, to * F + T + arm};
+        if (!eq.keeps_sizes()) return eq.add_block(family, body, columns, partials, sign);
+        eq.add_block(family, body, columns, partials, {size_of_F, sizes(to) * size_of_F + size_of_T + sizes(arm)},
+                     sign);
       };
       add_to(p.body_I, -1.0, to_I, I_moved);
       if (f.acts_on_J()) add_to(p.body_J, 1.0, to_J, J_moved);

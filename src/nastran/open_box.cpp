@@ -40,12 +40,13 @@ class OpenBox {
     add_masses();
     if (auto done = markers_.add_asked(remarks_); !done) return tl::unexpected(done.error());
     if (auto done = markers_.add_channels(remarks_); !done) return tl::unexpected(done.error());
-    OpenConstraints constraints(system_, at_, options_, ids_, deck_, points_, markers_, wrenches_);
+    const OpenDeck open{options_, ids_, deck_, points_, markers_, wrenches_};
+    OpenConstraints constraints(system_, at_, open);
     std::vector<MatrixEntry> of_states = constraints.add();
     const Contributions contributions(system_, of_.linear, forms_, points_);
     const std::vector<MatrixEntry> rows = contributions.of_states();
     of_states.insert(of_states.end(), rows.begin(), rows.end());
-    OpenForces forces(system_, at_.motion, options_, ids_, deck_, points_, markers_, wrenches_);
+    OpenForces forces(system_, at_.motion, open);
     auto done = forces.add(contributions.of_elements(), std::move(of_states), remarks_);
     if (!done) return tl::unexpected(done.error());
     markers_.warn_of_numbers(remarks_);

@@ -43,16 +43,15 @@ std::string unit_components(Eigen::MatrixXd rows) {
 
 }  // namespace
 
-OpenConstraints::OpenConstraints(const System& system, const PerturbedPoint& at, const ExportOptions& options, Ids& ids,
-                                 Deck& deck, OpenPoints& points, MarkerGrids& markers, const SingleWrenches& wrenches)
+OpenConstraints::OpenConstraints(const System& system, const PerturbedPoint& at, const OpenDeck& open)
     : system_(system),
       at_(at),
-      options_(options),
-      ids_(ids),
-      deck_(deck),
-      points_(points),
-      markers_(markers),
-      wrenches_(wrenches) {}
+      options_(open.options),
+      ids_(open.ids),
+      deck_(open.deck),
+      points_(open.points),
+      markers_(open.markers),
+      wrenches_(open.wrenches) {}
 
 OpenConstraints::Row OpenConstraints::at_centres(std::int32_t row) const {
   std::map<std::int32_t, std::pair<double, double>> sums;  // and the sizes of their parts

@@ -11,18 +11,15 @@
 #include <vector>
 
 #include "nastran/contributions.h"
-#include "nastran/marker_grids.h"
-#include "nastran/open_points.h"
-#include "nastran/wrenches.h"
+#include "nastran/open_deck.h"
 #include "perturbation/perturbed_point.h"
 
 namespace dynalin::nastran {
 
 class OpenConstraints {
  public:
-  // All arguments must outlive this.
-  OpenConstraints(const System&, const PerturbedPoint&, const ExportOptions&, Ids&, Deck&, OpenPoints&, MarkerGrids&,
-                  const SingleWrenches&);
+  // All arguments must outlive this, and what the deck refers to.
+  OpenConstraints(const System&, const PerturbedPoint&, const OpenDeck&);
 
   // Adds joints and relations to the deck; what rows on velocities take comes back.
   std::vector<MatrixEntry> add();

@@ -13,16 +13,15 @@
 
 namespace dynalin::nastran {
 
-OpenForces::OpenForces(const System& system, const Motion& motion, const ExportOptions& options, Ids& ids, Deck& deck,
-                       OpenPoints& points, MarkerGrids& markers, const SingleWrenches& wrenches)
+OpenForces::OpenForces(const System& system, const Motion& motion, const OpenDeck& open)
     : system_(system),
       motion_(motion),
-      options_(options),
-      ids_(ids),
-      deck_(deck),
-      points_(points),
-      markers_(markers),
-      wrenches_(wrenches) {}
+      options_(open.options),
+      ids_(open.ids),
+      deck_(open.deck),
+      points_(open.points),
+      markers_(open.markers),
+      wrenches_(open.wrenches) {}
 
 // --- names of matrices -----------------------------------------------------------------------------------------------
 

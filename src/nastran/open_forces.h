@@ -18,17 +18,14 @@
 #include <vector>
 
 #include "nastran/contributions.h"
-#include "nastran/marker_grids.h"
-#include "nastran/open_points.h"
-#include "nastran/wrenches.h"
+#include "nastran/open_deck.h"
 
 namespace dynalin::nastran {
 
 class OpenForces {
  public:
-  // All arguments must outlive this.
-  OpenForces(const System&, const Motion&, const ExportOptions&, Ids&, Deck&, OpenPoints&, MarkerGrids&,
-             const SingleWrenches&);
+  // All arguments must outlive this, and what the deck refers to.
+  OpenForces(const System&, const Motion&, const OpenDeck&);
 
   // Adds bushes and matrices to the deck; `of_states` and what forces take of differential states go into matrices of
   // their own.

@@ -38,16 +38,14 @@ class Perturber {
     result_.warnings = choice.warnings;
     result_.near_singularity = near_singularity(system_, at_->rows, choice);
     read_channels();
-    const UndefinedPartials undefined(system_, at_->motion, at_->equations, at_->inputs, at_->outputs,
-                                      options_.without_damping);
+    const UndefinedPartials undefined(system_, *at_);
     if (auto taken = take_massless(choice); !taken) return tl::unexpected(undefined.failure().value_or(taken.error()));
     if (at_->massless) {
       if (auto failure = undefined.failure_in_balances(at_->massless->limit.left))
         return tl::unexpected(std::move(*failure));
     }
     name_states();
-    auto equations = PerturbationEquations::make(system_, at_->motion, at_->rows, at_->equations, choice, at_->inputs,
-                                                 options_.without_damping, at_->massless ? &*at_->massless : nullptr);
+    auto equations = PerturbationEquations::make(system_, *at_);
     if (!equations) return tl::unexpected(undefined.failure().value_or(equations.error()));
     if (undefined.failure()) {
       // Whether they count is asked of all variations.

@@ -38,11 +38,8 @@ Columns all_unknowns(const Columns& a, const Columns& x) {
 
 class PerturbationEquations {
  public:
-  // `inputs` are algebraic unknowns that are cut free of their own equation.
-  // The equations must hold all partials, and sizes.
-  static Result<PerturbationEquations> make(const System&, const Motion&, const ConstraintRows&, const Equations&,
-                                            const StateChoice&, const std::vector<std::int32_t>& inputs,
-                                            bool without_damping, const MasslessStates* massless = nullptr);
+  // Inputs are cut free of their own equation. The equations of the point must hold all partials, and sizes.
+  static Result<PerturbationEquations> make(const System&, const PerturbedPoint&);
 
   // x′ = A x as it stands.
   static PerturbationEquations of_state_matrix(const Eigen::MatrixXd& A);

@@ -40,26 +40,24 @@ ColumnMatrix without_zeros(const ColumnMatrix& m) {
 
 class PerturbationEquations::Assembly {
  public:
-  Assembly(const System& system, const Motion& motion, const ConstraintRows& rows, const Equations& eq,
-           const StateChoice& choice, const std::vector<std::int32_t>& inputs, bool without_damping,
-           const MasslessStates* massless)
+  Assembly(const System& system, const PerturbedPoint& at)
       : system_(system),
         augmented_(system),
-        rows_(rows),
-        eq_(eq),
-        choice_(choice),
-        inputs_(inputs),
-        without_damping_(without_damping),
-        massless_(massless),
-        roundoff_scales_(system.layout(), motion),
+        rows_(at.rows),
+        eq_(at.equations),
+        choice_(at.choice),
+        inputs_(at.inputs),
+        without_damping_(at.without_damping),
+        massless_(at.massless ? &*at.massless : nullptr),
+        roundoff_scales_(system.layout(), at.motion),
         n_(system.layout().coordinate_count),
         first_state_(2 * n_ + augmented_.size()),
         cut_(system.layout().algebraic.size(), false) {
-    for (const std::int32_t u : inputs) cut_[static_cast<std::size_t>(u)] = true;
+    for (const std::int32_t u : inputs_) cut_[static_cast<std::size_t>(u)] = true;
     p_.n_ = n_;
     p_.augmented_size_ = augmented_.size();
     p_.algebraic_ = first_state_;
-    p_.states_ = choice.size();
+    p_.states_ = choice_.size();
   }
 
   Result<PerturbationEquations> run() {
@@ -357,18 +355,12 @@ class PerturbationEquations::Assembly {
   SizedBlock states_{0, first_state_, roundoff_}, rates_on_algebraic_{first_state_, 0, roundoff_};
 };
 
-Result<PerturbationEquations> PerturbationEquations::make(const System& system, const Motion& motion,
-                                                          const ConstraintRows& rows, const Equations& eq,
-                                                          const StateChoice& choice,
-                                                          const std::vector<std::int32_t>& inputs, bool without_damping,
-                                                          const MasslessStates* massless) {
-  return Assembly(system, motion, rows, eq, choice, inputs, without_damping, massless).run();
+Result<PerturbationEquations> PerturbationEquations::make(const System& system, const PerturbedPoint& at) {
+  return Assembly(system, at).run();
 }
 
 ColumnMatrix PerturbationEquations::sizes(const System& system, const PerturbedPoint& at) {
-  return Assembly(system, at.motion, at.rows, at.equations, at.choice, at.inputs, at.without_damping,
-                  at.massless ? &*at.massless : nullptr)
-      .sizes();
+  return Assembly(system, at).sizes();
 }
 
 }  // namespace dynalin

@@ -4,26 +4,25 @@
 
 #include <algorithm>
 
+#include "perturbation/perturbed_point.h"
 #include "system/sources.h"
 #include "system/undefined_rows.h"
 
 namespace dynalin {
 
-UndefinedPartials::UndefinedPartials(const System& system, const Motion& motion, Equations& eq,
-                                     std::vector<std::int32_t> inputs, std::vector<std::int32_t> outputs,
-                                     bool without_damping)
+UndefinedPartials::UndefinedPartials(const System& system, PerturbedPoint& at)
     : system_(system),
-      motion_(motion),
+      motion_(at.motion),
       augmented_(system),
-      outputs_(std::move(outputs)),
-      without_damping_(without_damping),
-      entries_(eq.clear_undefined()) {
+      outputs_(at.outputs),
+      without_damping_(at.without_damping),
+      entries_(at.equations.clear_undefined()) {
   // Equations that inputs have cut do not count.
   std::erase_if(entries_, [&](const Entry& e) {
-    return std::any_of(inputs.begin(), inputs.end(), [&](std::int32_t u) { return eq.algebraic_row(u) == e.row; });
+    return std::ranges::any_of(at.inputs, [&](std::int32_t u) { return at.equations.algebraic_row(u) == e.row; });
   });
   for_each_source<VanishingSource>(system, [&](const ElementSet&, const VanishingSource& source) {
-    source.vanishing(motion, system.layout(), sizes_);
+    source.vanishing(motion_, system.layout(), sizes_);
   });
 }
 

@@ -19,9 +19,8 @@ namespace dynalin {
 
 class UndefinedPartials {
  public:
-  // Takes them out of the equations. Inputs and outputs are algebraic unknowns.
-  UndefinedPartials(const System&, const Motion&, Equations&, std::vector<std::int32_t> inputs,
-                    std::vector<std::int32_t> outputs, bool without_damping);
+  // Takes them out of the equations of the point, which must outlive this.
+  UndefinedPartials(const System&, PerturbedPoint&);
 
   // What to say of a linear model with the variations `a` of all unknowns; nothing if none of the entries counts.
   std::optional<Failure> failure(const PerturbationEquations&, const StateChoice&, const Eigen::MatrixXd& a) const;

@@ -38,16 +38,15 @@ constexpr double shortest_bound = 1e-2;  // of steps, by what elements have to r
 
 class Dynamics {
  public:
-  Dynamics(const System& system, const OutputTimes& times, const IntegratorSettings& settings,
-           IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+  Dynamics(const System& system, const IntegratorSettings& settings, const Course& course)
       : system_(system),
-        times_(times),
-        statistics_(statistics),
-        watch_(watch),
-        findings_(findings),
-        points_(system, findings),
+        times_(course.times),
+        statistics_(course.statistics),
+        watch_(course.watch),
+        findings_(course.findings),
+        points_(system, findings_),
         events_(system),
-        bounds_(settings, times) {}
+        bounds_(settings, times_) {}
 
   Result<AdvancedPoint> run(OperatingPoint from) {
     from.mode = AnalysisMode::dynamics;
@@ -378,10 +377,9 @@ class Dynamics {
 
 }  // namespace
 
-Result<AdvancedPoint> advance_dynamics(const System& system, OperatingPoint from, const OutputTimes& times,
-                                       const IntegratorSettings& settings, IntegrationStatistics& statistics,
-                                       const SimulationWatch& watch, Findings& findings) {
-  return Dynamics(system, times, settings, statistics, watch, findings).run(std::move(from));
+Result<AdvancedPoint> advance_dynamics(const System& system, OperatingPoint from, const IntegratorSettings& settings,
+                                       const Course& course) {
+  return Dynamics(system, settings, course).run(std::move(from));
 }
 
 std::size_t degrees_of_freedom(const System& system, const OperatingPoint& op) {

@@ -5,8 +5,7 @@
 
 #include "analysis/initial.h"
 #include "model/settings.h"
-#include "simulation/output_times.h"
-#include "simulation/simulation_step.h"
+#include "simulation/course.h"
 
 namespace dynalin {
 
@@ -16,9 +15,7 @@ struct AdvancedPoint {
 };
 
 // `from` is consistent.
-Result<AdvancedPoint> advance_dynamics(const System&, OperatingPoint from, const OutputTimes&,
-                                       const IntegratorSettings&, IntegrationStatistics&, const SimulationWatch&,
-                                       Findings&);
+Result<AdvancedPoint> advance_dynamics(const System&, OperatingPoint from, const IntegratorSettings&, const Course&);
 
 // Independent velocities that constraints leave at a point.
 std::size_t degrees_of_freedom(const System&, const OperatingPoint&);

@@ -36,7 +36,7 @@ Led lead(const std::string& text, double end, double step, double error = 1e-4, 
   };
   IntegratorSettings settings;
   settings.error = error;
-  auto found = advance_dynamics(*system, *start, OutputTimes(0, end, step), settings, r.statistics, watch, findings);
+  auto found = advance_dynamics(*system, *start, settings, {OutputTimes(0, end, step), watch, r.statistics, findings});
   if (!found) throw std::runtime_error(found.error().message);
   r.end = std::move(*found);
   for (const Diagnostic& d : findings.warnings.items()) r.warned += d.message + '\n';

@@ -52,18 +52,17 @@ std::string list(std::vector<std::string> names) {
 
 class KinematicRun {
  public:
-  KinematicRun(const System& system, OperatingPoint from, const OutputTimes& times, const KinematicsSettings& settings,
-               IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+  KinematicRun(const System& system, OperatingPoint from, const KinematicsSettings& settings, const Course& course)
       : system_(system),
         equations_(system),
         turning_(system),
-        times_(times),
+        times_(course.times),
         limits_(limits_of(settings, from)),
         largest_step_(stated(settings.largest_step, std::numeric_limits<double>::infinity())),
         at_(std::move(from)),
-        statistics_(statistics),
-        watch_(watch),
-        findings_(findings) {}
+        statistics_(course.statistics),
+        watch_(course.watch),
+        findings_(course.findings) {}
 
   Result<AdvancedPoint> run() {
     if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
@@ -385,10 +384,9 @@ bool needs_integration(const System& system) {
                      [](const auto& r) { return r.level == RowLevel::velocity; });
 }
 
-Result<AdvancedPoint> advance_kinematics(const System& system, OperatingPoint from, const OutputTimes& times,
-                                         const KinematicsSettings& settings, IntegrationStatistics& statistics,
-                                         const SimulationWatch& watch, Findings& findings) {
-  return KinematicRun(system, std::move(from), times, settings, statistics, watch, findings).run();
+Result<AdvancedPoint> advance_kinematics(const System& system, OperatingPoint from, const KinematicsSettings& settings,
+                                         const Course& course) {
+  return KinematicRun(system, std::move(from), settings, course).run();
 }
 
 }  // namespace dynalin

@@ -18,8 +18,6 @@ bool needs_integration(const System&);
 
 // From a consistent point to the end of `times`, or to where the watch does not go on. The watch is called with the
 // first point as well. Every point that is handed out is consistent on all levels.
-Result<AdvancedPoint> advance_kinematics(const System&, OperatingPoint from, const OutputTimes&,
-                                         const KinematicsSettings&, IntegrationStatistics&, const SimulationWatch&,
-                                         Findings&);
+Result<AdvancedPoint> advance_kinematics(const System&, OperatingPoint from, const KinematicsSettings&, const Course&);
 
 }  // namespace dynalin

@@ -142,9 +142,9 @@ TEST(KinematicLimits, the_watch_ends_it_where_it_will) {
       "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\nMOTION/1, JOINT=1, FUNCTION=TIME\n");
   Findings findings;
   IntegrationStatistics statistics;
-  const auto end = advance_kinematics(
-      *system, *initial_conditions(*system, findings), OutputTimes::of_count(0, 1, 10), {}, statistics,
-      [](const SimulationStep& s) { return s.point.time > 0.25 ? GoOn::no : GoOn::yes; }, findings);
+  const SimulationWatch watch = [](const SimulationStep& s) { return s.point.time > 0.25 ? GoOn::no : GoOn::yes; };
+  const auto end = advance_kinematics(*system, *initial_conditions(*system, findings), {},
+                                      {OutputTimes::of_count(0, 1, 10), watch, statistics, findings});
   ASSERT_TRUE(end);
   EXPECT_DOUBLE_EQ(end->point.time, 0.3);
   EXPECT_EQ(end->end, SimulationEnd::stopped);

@@ -27,14 +27,13 @@ struct KinematicRun {
       : system(system_of(text)) {
     auto start = initial_conditions(*system, findings);
     if (!start) throw std::runtime_error(start.error().message);
-    auto advanced = advance_kinematics(
-        *system, std::move(*start), OutputTimes::of_count(0, until, count), settings, statistics,
-        [&](const SimulationStep& s) {
-          if (s.output) outputs.push_back(s.point);
-          steps.push_back(s.point.time);
-          return GoOn::yes;
-        },
-        findings);
+    const SimulationWatch watch = [&](const SimulationStep& s) {
+      if (s.output) outputs.push_back(s.point);
+      steps.push_back(s.point.time);
+      return GoOn::yes;
+    };
+    auto advanced = advance_kinematics(*system, std::move(*start), settings,
+                                       {OutputTimes::of_count(0, until, count), watch, statistics, findings});
     if (advanced) {
       end = std::move(advanced->point), how = advanced->end;
     } else {

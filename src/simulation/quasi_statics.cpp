@@ -54,14 +54,13 @@ std::string farthest(const System& system, const Eigen::VectorXd& change) {
 
 class QuasiStaticRun {
  public:
-  QuasiStaticRun(const System& system, const OutputTimes& times, const StaticsOptions& options,
-                 IntegrationStatistics& statistics, const SimulationWatch& watch, Findings& findings)
+  QuasiStaticRun(const System& system, const StaticsOptions& options, const Course& course)
       : system_(system),
-        times_(times),
+        times_(course.times),
         options_(options),
-        statistics_(statistics),
-        watch_(watch),
-        findings_(findings),
+        statistics_(course.statistics),
+        watch_(course.watch),
+        findings_(course.findings),
         events_(system),
         turning_(system) {
     nearby_ = options_;
@@ -304,10 +303,9 @@ class QuasiStaticRun {
 
 }  // namespace
 
-Result<QuasiStaticEnd> advance_quasi_statics(const System& system, OperatingPoint from, const OutputTimes& times,
-                                             const StaticsOptions& options, IntegrationStatistics& statistics,
-                                             const SimulationWatch& watch, Findings& findings) {
-  return QuasiStaticRun(system, times, options, statistics, watch, findings).run(std::move(from));
+Result<QuasiStaticEnd> advance_quasi_statics(const System& system, OperatingPoint from, const StaticsOptions& options,
+                                             const Course& course) {
+  return QuasiStaticRun(system, options, course).run(std::move(from));
 }
 
 }  // namespace dynalin

@@ -6,8 +6,7 @@
 #pragma once
 
 #include "analysis/statics.h"
-#include "simulation/output_times.h"
-#include "simulation/simulation_step.h"
+#include "simulation/course.h"
 
 namespace dynalin {
 
@@ -19,8 +18,6 @@ struct QuasiStaticEnd {
 
 // From a point near an equilibrium to the end of `times`, or to where the watch does not go on. The watch is called
 // with the equilibrium of the start as well. What is handed out stands still, whatever drives it.
-Result<QuasiStaticEnd> advance_quasi_statics(const System&, OperatingPoint from, const OutputTimes&,
-                                             const StaticsOptions&, IntegrationStatistics&, const SimulationWatch&,
-                                             Findings&);
+Result<QuasiStaticEnd> advance_quasi_statics(const System&, OperatingPoint from, const StaticsOptions&, const Course&);
 
 }  // namespace dynalin

@@ -22,13 +22,12 @@ struct QuasiStaticRun {
   Result<QuasiStaticEnd> end = tl::unexpected(Failure{});
 
   QuasiStaticRun(const std::string& text, double until, std::int64_t count) : system(system_of(text)) {
-    end = advance_quasi_statics(
-        *system, system->drawn(), OutputTimes::of_count(0, until, count), {}, statistics,
-        [&](const SimulationStep& s) {
-          if (s.output) outputs.push_back(s.point);
-          return GoOn::yes;
-        },
-        findings);
+    const SimulationWatch watch = [&](const SimulationStep& s) {
+      if (s.output) outputs.push_back(s.point);
+      return GoOn::yes;
+    };
+    end = advance_quasi_statics(*system, system->drawn(), {},
+                                {OutputTimes::of_count(0, until, count), watch, statistics, findings});
   }
   Vector place(const OperatingPoint& op, std::int64_t marker) const {
     return system->motion(op).point(system->layout().marker(*system->model().find_marker(marker)));

@@ -18,16 +18,17 @@ tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
 Result<AdvancedPoint> advance(const System& system, const SimulationRequest& request, std::size_t freedoms,
                               const SimulationWatch& watch, SimulatedPoint& result, Findings& findings) {
   const OperatingPoint& from = result.point.values;
+  const Course course{request.times, watch, result.statistics, findings};
   if (result.kind == SimulationKind::quasi_statics) {
-    auto end = advance_quasi_statics(system, from, request.times, request.statics, result.statistics, watch, findings);
+    auto end = advance_quasi_statics(system, from, request.statics, course);
     if (!end) return tl::unexpected(end.error());
     StaticsReport& s = end->statics;
     result.point.statics = StaticSolution{s.iterations, s.imbalance, std::move(s.at_rest)};
     return AdvancedPoint{std::move(end->point), end->end};
   }
   if (result.kind == SimulationKind::kinematics && (freedoms > 0 || !needs_integration(system)))
-    return advance_kinematics(system, from, request.times, request.kinematics, result.statistics, watch, findings);
-  return advance_dynamics(system, from, request.times, request.integrator, result.statistics, watch, findings);
+    return advance_kinematics(system, from, request.kinematics, course);
+  return advance_dynamics(system, from, request.integrator, course);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ struct ForceAndTorque {
 template <class T>
 ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<TimeTaylor<T>>& along_motion, bool rubs,
                                  const Motion& motion) {
-  const auto mode = static_cast<double>(motion.mode);
+  const RoutineTime at{motion.time, static_cast<double>(motion.mode)};
   const RelativeFrame<T> I = at_instant(along_motion, &TimeTaylor<T>::value);
   const RelativeFrame<T> rate = at_instant(along_motion, &TimeTaylor<T>::rate);
   ForceAndTorque<T> sum;
@@ -155,8 +155,8 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
     const T apart = dot(t.normal, v);
     const bool calls = c.normal_routine || c.friction_routine;
     const ContactPlace<T> place = calls ? place_of(t, I, apart, on_I, on_J) : ContactPlace<T>();
-    const T N = c.normal_routine ? called_pressure(*c.normal_routine, place, motion.time, mode)
-                                 : pressure(c.pressure, T(-t.gap), T(-apart));
+    const T N =
+        c.normal_routine ? called_pressure(*c.normal_routine, place, at) : pressure(c.pressure, T(-t.gap), T(-apart));
     // A routine may also pull.
     if (!c.normal_routine && !(value_of(N) > 0)) return;
     if (!t.defined) {  // undefined_values says what it is
@@ -168,8 +168,8 @@ ForceAndTorque<T> contact_wrench(const ContactForce& c, const RelativeFrame<Time
     Vec3<T> F = t.normal * share;
     const Vec3<T> arm = t.point - I.p, slip = v - t.normal * apart;
     if (c.friction_routine) {
-      const ContactFriction<T> friction = called_friction(*c.friction_routine, place, t.normal, slip,
-                                                          spin_about(t.normal, I, rate), share, motion.time, mode);
+      const ContactSlip<T> slips{t.normal, slip, spin_about(t.normal, I, rate), share};
+      const ContactFriction<T> friction = called_friction(*c.friction_routine, place, slips, at);
       F += friction.force, sum.torque += friction.torque;
     } else if (rubs) {
       F -= slip * (friction_slope(*c.friction, slip) * share);
@@ -332,7 +332,7 @@ RoutineLack lack_at(const detail::ContactArguments<double>& arguments, const Rou
 
 RoutineLack routine_lack(const ContactForce& c, const PairMotion& pair, const Motion& motion) {
   const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
-  const auto mode = static_cast<double>(motion.mode);
+  const RoutineTime at{motion.time, static_cast<double>(motion.mode)};
   RoutineLack lack;
   for_each_touch(c, I, [&](const Touch<double>& t, const PlacedSide& on_I, const PlacedSide& on_J) {
     if (!t.closed() || !t.defined || !lack.reason.empty()) return;
@@ -341,17 +341,16 @@ RoutineLack routine_lack(const ContactForce& c, const PairMotion& pair, const Mo
     const ContactPlace<double> place = place_of(t, I, apart, on_I, on_J);
     double N = pressure(c.pressure, -t.gap, -apart);
     if (c.normal_routine) {
-      const auto arguments = pressure_arguments(place, motion.time, mode);
+      const auto arguments = pressure_arguments(place, at);
       lack = lack_at(arguments, *c.normal_routine, true);
       N = arguments.called(*c.normal_routine, 0);
     }
     if (!c.friction_routine || !lack.reason.empty() || (!c.normal_routine && !(N > 0))) return;
-    const Vector slip = v - t.normal * apart;
-    const double spin = spin_about(t.normal, I, rate), share = N * t.weight;
-    const auto arguments = friction_arguments(place, norm(slip), spin, share, motion.time, mode);
+    const ContactSlip<double> slip{t.normal, v - t.normal * apart, spin_about(t.normal, I, rate), N * t.weight};
+    const auto arguments = friction_arguments(place, slip, at);
     lack = lack_at(arguments, *c.friction_routine, false);
     if (!lack.reason.empty()) return;
-    const Vector F = called_friction(*c.friction_routine, place, t.normal, slip, spin, share, motion.time, mode).force;
+    const Vector F = called_friction(*c.friction_routine, place, slip, at).force;
     if (std::isfinite(F.x)) return;
     lack.reason = fmt::format("{} gives a force of {:g} where nothing slips, and it has no direction there",
                               c.friction_routine->name(), arguments.called(*c.friction_routine, 0));

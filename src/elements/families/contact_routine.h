@@ -25,6 +25,19 @@ struct ContactPlace {
   T gap, gap_rate;
 };
 
+// How they slip there: along the surface, with the angular velocity `spin` about the normal out of J, under the normal
+// force N.
+template <class T>
+struct ContactSlip {
+  Vec3<T> normal, velocity;
+  T spin, N;
+};
+
+// TIME and MODE, which every routine is told.
+struct RoutineTime {
+  double time, mode;
+};
+
 // What two bodies do to each other at a place of contact, on I.
 template <class T>
 struct ContactFriction {
@@ -37,8 +50,8 @@ namespace detail {
 template <class T>
 class ContactArguments {
  public:
-  ContactArguments(double time, double mode, std::initializer_list<Vec3<T>> vectors, std::initializer_list<T> numbers) {
-    take(T(time)), take(T(mode));
+  ContactArguments(const RoutineTime& at, std::initializer_list<Vec3<T>> vectors, std::initializer_list<T> numbers) {
+    take(T(at.time)), take(T(at.mode));
     for (const Vec3<T>& v : vectors) take(v.x), take(v.y), take(v.z);
     for (const T& x : numbers) take(x);
   }
@@ -78,38 +91,41 @@ class ContactArguments {
 }  // namespace detail
 
 template <class T>
-detail::ContactArguments<T> pressure_arguments(const ContactPlace<T>& p, double time, double mode) {
-  return {time, mode, {p.point_I, p.normal_I, p.point_J, p.normal_J}, {p.gap, p.gap_rate}};
+detail::ContactArguments<T> pressure_arguments(const ContactPlace<T>& p, const RoutineTime& at) {
+  return {at, {p.point_I, p.normal_I, p.point_J, p.normal_J}, {p.gap, p.gap_rate}};
 }
 // No number where the routine gives more than one.
 template <class T>
-T called_pressure(const Routine& routine, const ContactPlace<T>& place, double time, double mode) {
-  const auto arguments = pressure_arguments(place, time, mode);
+T called_pressure(const Routine& routine, const ContactPlace<T>& place, const RoutineTime& at) {
+  const auto arguments = pressure_arguments(place, at);
   const T N = arguments.called(routine, 0);
   const bool one = routine.value(arguments.plain(), 1) == 0 && routine.value(arguments.plain(), 2) == 0;
   return one ? N : T(std::numeric_limits<double>::quiet_NaN());
 }
 template <class T>
-detail::ContactArguments<T> friction_arguments(const ContactPlace<T>& p, const T& speed, const T& spin, const T& N,
-                                               double time, double mode) {
-  return {time, mode, {p.point_I, p.point_J, Vec3<T>{speed, T(0.0), spin}}, {N}};
+detail::ContactArguments<T> friction_arguments(const ContactPlace<T>& p, const ContactSlip<T>& s,
+                                               const RoutineTime& at) {
+  using std::sqrt;
+  const T square = dot(s.velocity, s.velocity);
+  const T speed = value_of(square) > 0 ? T(sqrt(square)) : T(0.0);
+  return {at, {p.point_I, p.point_J, Vec3<T>{speed, T(0.0), s.spin}}, {s.N}};
 }
 
-// At slip `speed` along `slip`, with the angular velocity `spin` about the normal out of J.
 template <class T>
-ContactFriction<T> called_friction(const Routine& routine, const ContactPlace<T>& place, const Vec3<T>& normal,
-                                   const Vec3<T>& slip, const T& spin, const T& N, double time, double mode) {
+ContactFriction<T> called_friction(const Routine& routine, const ContactPlace<T>& place, const ContactSlip<T>& s,
+                                   const RoutineTime& at) {
   using std::abs, std::sqrt;
   constexpr std::size_t of_speed = 6;  // among its arguments
   // Below such a part of the normal force friction grows with the speed as it does at rest.
   constexpr double nothing = 1e-8;
+  const Vec3<T>& slip = s.velocity;
   const T square = dot(slip, slip);
   const bool slips = value_of(square) > 0;
-  const auto arguments = friction_arguments(place, slips ? T(sqrt(square)) : T(0.0), spin, N, time, mode);
+  const auto arguments = friction_arguments(place, s, at);
   std::array<T, 3> f;
   for (std::size_t k = 0; k < 3; ++k) f[k] = arguments.called(routine, k);
-  const Vec3<T> across = cross(normal, slip), torque = normal * f[2];
-  const double along = value_of(f[0]), aside = value_of(f[1]), least = nothing * std::abs(value_of(N));
+  const Vec3<T> across = cross(s.normal, slip), torque = s.normal * f[2];
+  const double along = value_of(f[0]), aside = value_of(f[1]), least = nothing * std::abs(value_of(s.N));
   if constexpr (!std::is_same_v<T, double>) {
     if (std::abs(along) <= least && std::abs(aside) <= least) {
       const double by_speed = arguments.slope(routine, 0, of_speed),

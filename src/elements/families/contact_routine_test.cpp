@@ -50,8 +50,8 @@ const Vector normal{0, 0.6, 0.8}, first{1, 0, 0}, second{0, 0.8, -0.6};
 template <class T>
 ContactFriction<T> friction(const Law& law, const std::array<T, 4>& x) {
   const auto as = [](const Vector& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
-  return called_friction(law, ContactPlace<T>{}, as(normal), Vec3<T>(as(first) * x[0] + as(second) * x[1]), x[2], x[3],
-                         0.0, 4.0);
+  const ContactSlip<T> slip{as(normal), Vec3<T>(as(first) * x[0] + as(second) * x[1]), x[2], x[3]};
+  return called_friction(law, ContactPlace<T>{}, slip, {.time = 0.0, .mode = 4.0});
 }
 std::array<double, 6> numbers(const Law& law, const std::array<double, 4>& x) {
   const auto f = friction(law, x);

@@ -48,13 +48,13 @@ void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
     const Matrix3 one = Matrix3::identity();
     const Matrix3 J = trace(G0) * one - G0;
     const std::int32_t column = block.offset;
-    eq.add_block(PartialBy::acceleration, m.body, column, m.mass * one, skew(c), 1.0);
+    eq.add_block(PartialBy::acceleration, m.body, {column}, {m.mass * one, skew(c)}, 1.0);
     if (!block.turns()) continue;
     const Matrix3 G1 = b.Rdot * SA;
-    eq.add_block(PartialBy::acceleration, m.body, column + 3, -skew(c), J, 1.0);
-    eq.add_block(PartialBy::velocity, m.body, column + 3, -2.0 * skew(cdot), 2.0 * (trace(G1) * one - G1), 1.0);
-    eq.add_block(PartialBy::position, m.body, column + 3, -skew(cddot),
-                 transpose(G2) - G2 + skew(b.rddot - gravity_) * skew(c), 1.0);
+    eq.add_block(PartialBy::acceleration, m.body, {column + 3}, {-skew(c), J}, 1.0);
+    eq.add_block(PartialBy::velocity, m.body, {column + 3}, {-2.0 * skew(cdot), 2.0 * (trace(G1) * one - G1)}, 1.0);
+    eq.add_block(PartialBy::position, m.body, {column + 3},
+                 {-skew(cddot), transpose(G2) - G2 + skew(b.rddot - gravity_) * skew(c)}, 1.0);
   }
 }
 
