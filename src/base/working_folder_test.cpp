@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace dynalin {
+namespace dynalin::working_folder_test {
 namespace {
 
 TEST(WorkingFolder, is_that_which_was_kept) {
@@ -24,4 +24,4 @@ TEST(WorkingFolder, is_that_which_was_kept) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::working_folder_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dynalin {
+namespace dynalin::saved_file_test {
 namespace {
 
 TEST(SavedFile, keeps_what_states_tell_of) {
@@ -35,4 +35,4 @@ TEST(SavedFile, keeps_what_states_tell_of) {
 }
 
 }  // namespace
-}  // namespace dynalin
+}  // namespace dynalin::saved_file_test

@@ -1,7 +1,8 @@
 // Why an analysis has no result: a code that `dynalin explain` knows, on the terminal, in the message file and in JSON.
 #include <gmock/gmock.h>
 
-#include <set>
+#include <string>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "cases/run.h"
@@ -13,43 +14,44 @@ using ::testing::HasSubstr;
 
 struct Failing {
   const char* code;
-  const char* dataset;
+  std::string dataset;
   const char* commands;
 };
 
-#define HEAD "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=1,0,0\n"
-#define BAR HEAD "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=1,0,0\n"
-#define POINT HEAD "POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n"
-#define HINGE BAR "JOINT/1, REVOLUTE, I=20, J=1\n"
-#define SPRING "SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=1\n"
+const std::string head = "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=1,0,0\n";
+const std::string bar = head + "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=1,0,0\n";
+const std::string point = head + "POINT_MASS/2, MASS=1, CM=20, QG=3,4,0\nMARKER/20, POINT_MASS=2\n";
+const std::string hinge = bar + "JOINT/1, REVOLUTE, I=20, J=1\n";
+const std::string sprung = hinge + "SPRINGDAMPER/1, ROTATIONAL, I=20, J=1, KT=1\n";
 
 const std::vector<Failing>& table() {
   static const std::vector<Failing> rows = {
-      {"contradicting-constraints", POINT "GCON/1, FUNCTION=DX(20,1)-1\nGCON/2, FUNCTION=DX(20,1)-2\nEND\n",
+      {"contradicting-constraints", point + "GCON/1, FUNCTION=DX(20,1)-1\nGCON/2, FUNCTION=DX(20,1)-2\nEND\n",
        "LINEAR/EIGENSOL\n"},
-      {"contradicting-constraints", POINT "GCON/1, FUNCTION=DX(20,1)-TIME\nGCON/2, FUNCTION=DX(20,1)-2*TIME\nEND\n",
+      {"contradicting-constraints", point + "GCON/1, FUNCTION=DX(20,1)-TIME\nGCON/2, FUNCTION=DX(20,1)-2*TIME\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"contradicting-constraints",
-       POINT "GCON/1, FUNCTION=DX(20,1)-TIME**2\nGCON/2, FUNCTION=DX(20,1)-2*TIME**2\nEND\n", "LINEAR/EIGENSOL\n"},
+       point + "GCON/1, FUNCTION=DX(20,1)-TIME**2\nGCON/2, FUNCTION=DX(20,1)-2*TIME**2\nEND\n", "LINEAR/EIGENSOL\n"},
       {"curved-velocity-constraints",
-       POINT "POINT_MASS/3, MASS=1, CM=30, VX=0.3\nMARKER/30, POINT_MASS=3\nGCON/6, FUNCTION=VX(30)**2+1\nEND\n",
+       point + "POINT_MASS/3, MASS=1, CM=30, VX=0.3\nMARKER/30, POINT_MASS=3\nGCON/6, FUNCTION=VX(30)**2+1\nEND\n",
        "SIMULATE/INITIAL\n"},
-      {"not-assembled", POINT "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\nEND\n", "SIMULATE/INITIAL\n"},
-      {"undefined-value", POINT "GCON/5, FUNCTION=SQRT(DX(20,1)-9)\nEND\n", "SIMULATE/INITIAL\n"},
-      {"undefined-value", HINGE SPRING "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=LOG(AZ(20,1)-1)\nEND\n",
+      {"not-assembled", point + "GCON/5, FUNCTION=DX(20,1)**2+DY(20,1)**2+1\nEND\n", "SIMULATE/INITIAL\n"},
+      {"undefined-value", point + "GCON/5, FUNCTION=SQRT(DX(20,1)-9)\nEND\n", "SIMULATE/INITIAL\n"},
+      {"undefined-value", sprung + "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=LOG(AZ(20,1)-1)\nEND\n",
        "SIMULATE/INITIAL\n"},
-      {"undetermined-accelerations", HEAD "PART/2\nMARKER/20\nEND\n", "SIMULATE/INITIAL\n"},
-      {"unsolved-equations", HINGE SPRING "VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))\nIC/AMAXIT=2\nEND\n",
+      {"undetermined-accelerations", head + "PART/2\nMARKER/20\nEND\n", "SIMULATE/INITIAL\n"},
+      {"unsolved-equations", sprung + "VARIABLE/1, IC=1, FUNCTION=COS(VARVAL(1))\nIC/AMAXIT=2\nEND\n",
        "SIMULATE/INITIAL\n"},
-      {"no-equilibrium", BAR "ACCGRAV/KGRAV=-10\nEND\n", "SIMULATE/STATICS\n"},
-      {"motion-at-rest", HINGE SPRING "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\nEND\n", "SIMULATE/STATICS\n"},
-      {"freedoms-in-kinematics", HINGE "END\n", "SIMULATE/KINEMATICS, END=1, STEPS=2\n"},
-      {"end-of-simulation", HINGE "END\n",
+      {"no-equilibrium", bar + "ACCGRAV/KGRAV=-10\nEND\n", "SIMULATE/STATICS\n"},
+      {"motion-at-rest", sprung + "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\nEND\n", "SIMULATE/STATICS\n"},
+      {"freedoms-in-kinematics", hinge + "END\n", "SIMULATE/KINEMATICS, END=1, STEPS=2\n"},
+      {"end-of-simulation", hinge + "END\n",
        "SIMULATE/DYNAMICS, END=0.1, STEPS=2\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n"},
-      {"undefined-derivative", HINGE SPRING "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=SQRT(WZ(20,1))\nEND\n",
+      {"undefined-derivative", sprung + "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=SQRT(WZ(20,1))\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"no-second-order",
-       POINT "GCON/1, FUNCTION=VX(20,1)+VY(20,1)*DX(20,1)\nSFORCE/1, TRANSLATION, I=20, J=1, FUNCTION=-DM(20,1)\nEND\n",
+       point +
+           "GCON/1, FUNCTION=VX(20,1)+VY(20,1)*DX(20,1)\nSFORCE/1, TRANSLATION, I=20, J=1, FUNCTION=-DM(20,1)\nEND\n",
        "LINEAR/MKB, FILE=m\n"},
   };
   return rows;

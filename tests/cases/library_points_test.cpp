@@ -8,6 +8,7 @@
 
 #include "cases/as_others_do.h"
 
+namespace library_points_test {
 namespace {
 
 using dynalin::Error;
@@ -109,3 +110,4 @@ TEST(LibraryPoints, saves_points_and_reloads_them) {
 }
 
 }  // namespace
+}  // namespace library_points_test

@@ -19,6 +19,7 @@
 #include "hanging_chain.h"
 #include "mass_lattice.h"
 
+namespace distributed_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,3 +179,4 @@ TEST_F(Distributed, DeathOfOneEndsAll) {
 }
 
 }  // namespace
+}  // namespace distributed_test

@@ -3,7 +3,7 @@
 
 #include "program.h"
 
-namespace dynalin::faults {
+namespace dynalin::faults::input_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -301,4 +301,4 @@ TEST_F(Memory, absurd_sizes_of_statements_are_refused_at_their_place) {
 }
 
 }  // namespace
-}  // namespace dynalin::faults
+}  // namespace dynalin::faults::input_test

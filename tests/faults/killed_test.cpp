@@ -9,7 +9,7 @@
 
 #include "program.h"
 
-namespace dynalin::faults {
+namespace dynalin::faults::killed_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST_F(Killed, a_folder_that_must_not_be_written_names_the_file_before_anything_
 }
 
 }  // namespace
-}  // namespace dynalin::faults
+}  // namespace dynalin::faults::killed_test

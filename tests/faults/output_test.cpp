@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace dynalin::faults {
+namespace dynalin::faults::output_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -461,4 +461,4 @@ TEST_F(Disks, a_signal_that_is_ignored_ends_nothing) {
 }
 
 }  // namespace
-}  // namespace dynalin::faults
+}  // namespace dynalin::faults::output_test

@@ -9,7 +9,7 @@
 
 #include "program.h"
 
-namespace dynalin::faults {
+namespace dynalin::faults::prompt_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -212,4 +212,4 @@ TEST_F(Prompt, a_pipe_without_an_end_is_refused) {
 }
 
 }  // namespace
-}  // namespace dynalin::faults
+}  // namespace dynalin::faults::prompt_test

@@ -4,7 +4,7 @@
 
 #include "routines/with_libraries.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::data_utilities_test {
 namespace {
 
 using ::testing::AllOf;
@@ -146,4 +146,4 @@ TEST_F(DataOfRoutines, is_missed_by_name) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::data_utilities_test

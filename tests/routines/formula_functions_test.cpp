@@ -5,7 +5,7 @@
 #include <cmath>
 #include <dynalin/user_routine.hpp>
 
-namespace dynalin::cases {
+namespace dynalin::cases::formula_functions_test {
 namespace {
 
 using user::Course;
@@ -86,4 +86,4 @@ TEST(FormulaFunctions, of_the_language_are_what_they_are_there) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::formula_functions_test

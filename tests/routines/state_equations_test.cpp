@@ -13,7 +13,7 @@
 #include "routine/routine_context.h"
 #include "routines/with_libraries.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::state_equations_test {
 namespace {
 
 using ::testing::AllOf;
@@ -590,4 +590,4 @@ TEST_F(StateEquations, that_crash_are_named_before_the_program_dies) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::state_equations_test

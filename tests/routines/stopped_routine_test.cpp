@@ -4,7 +4,7 @@
 
 #include "routines/with_libraries.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::stopped_routine_test {
 namespace {
 
 using ::testing::AllOf;
@@ -76,4 +76,4 @@ TEST_F(StoppedRoutines, name_what_calls_utilities_from_a_thread_of_its_own) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::stopped_routine_test

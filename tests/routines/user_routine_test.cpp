@@ -14,7 +14,7 @@
 #include "routines/robot.h"
 #include "routines/with_libraries.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::user_routine_test {
 namespace {
 
 using ::testing::AllOf;
@@ -573,4 +573,4 @@ TEST_F(UserRoutines, that_end_the_program_are_named_and_do_not_pass_for_success)
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::user_routine_test

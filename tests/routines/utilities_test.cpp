@@ -5,7 +5,7 @@
 #include "cases/flexible.h"
 #include "routines/with_libraries.h"
 
-namespace dynalin::cases {
+namespace dynalin::cases::utilities_test {
 namespace {
 
 using ::testing::AllOf;
@@ -226,4 +226,4 @@ TEST_F(MiscountingRoutines, are_told_what_they_counted) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::utilities_test

@@ -2,7 +2,7 @@
 #include "time/conservative.h"
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::accuracy_test {
 namespace {
 
 struct Promise {
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Time, Accuracy, ::testing::ValuesIn(promises), [](const
 });
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::accuracy_test

@@ -8,7 +8,7 @@
 #include "time/course.h"
 #include "time/momenta.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::contact_test {
 namespace {
 
 // A ball in space, or a disc in a plane, that starts at rest on a slope, as deep in it as its weight presses.
@@ -257,4 +257,4 @@ TEST(ContactInTime, boxes_that_meet_keep_their_momentum_and_spin) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::contact_test

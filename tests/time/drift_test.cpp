@@ -2,7 +2,7 @@
 #include "time/conservative.h"
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::drift_test {
 namespace {
 
 struct Bound {
@@ -46,4 +46,4 @@ INSTANTIATE_TEST_SUITE_P(Time, Drift, ::testing::ValuesIn(bounds), [](const auto
 });
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::drift_test

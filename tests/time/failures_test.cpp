@@ -4,7 +4,7 @@
 
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::failures_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -115,4 +115,4 @@ TEST(Failures, a_motion_that_jumps_ends_the_run_where_it_jumps) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::failures_test

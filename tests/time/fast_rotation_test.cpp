@@ -7,7 +7,7 @@
 
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::fast_rotation_test {
 namespace {
 
 const std::string wheel =
@@ -91,4 +91,4 @@ TEST(FastRotation, a_beam_of_finite_elements_spins_about_its_axis) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::fast_rotation_test

@@ -9,7 +9,7 @@
 #include "time/dry_friction.h"
 #include "time/reference_integration.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::friction_test {
 namespace {
 
 // A block on a belt that runs at `speed`, tied to ground by a spring; z of all markers points along x.
@@ -164,4 +164,4 @@ TEST(Friction, of_a_symmetric_mechanism_leads_it_like_its_middle) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::friction_test

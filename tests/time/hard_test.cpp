@@ -5,7 +5,7 @@
 
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::hard_test {
 namespace {
 
 TEST(Hard, nothing_at_all_and_variables_alone_pass_time) {
@@ -261,4 +261,4 @@ TEST(Hard, two_runs_are_one) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::hard_test

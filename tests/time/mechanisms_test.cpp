@@ -5,7 +5,7 @@
 
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::mechanisms_test {
 namespace {
 
 // A thin disk that leans by 30 degrees rolls around a circle: with the precession Ω and β the angle of its axle to the
@@ -134,4 +134,4 @@ END
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::mechanisms_test

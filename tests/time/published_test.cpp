@@ -9,7 +9,7 @@
 #include "time/course.h"
 #include "time/reference_integration.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::published_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -236,4 +236,4 @@ END
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::published_test

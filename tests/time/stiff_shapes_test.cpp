@@ -1,7 +1,7 @@
 // Undamped stiff modes that hardly move do not hold steps down to their periods.
 #include "time/course.h"
 
-namespace dynalin::in_time {
+namespace dynalin::in_time::stiff_shapes_test {
 namespace {
 
 // A rod of steel of length 1 on a hinge, let go from lying: its stretching has 20000 periods in the time of the run.
@@ -27,4 +27,4 @@ TEST(StiffShapes, a_rod_that_swings_without_damping_takes_steps_of_its_swing) {
 }
 
 }  // namespace
-}  // namespace dynalin::in_time
+}  // namespace dynalin::in_time::stiff_shapes_test
