@@ -28,7 +28,9 @@ class ProgramLibraryAndDecks : public ProgramLibraryAndSelections {
     return list;
   }
 
-  RunResult run_file(const std::string& file) const { return exported(file, ProgramLibraryAndSelections::run_file(file)); }
+  RunResult run_file(const std::string& file) const {
+    return exported(file, ProgramLibraryAndSelections::run_file(file));
+  }
   RunResult run(const std::string& dataset, const std::string& commands) const {
     return exported("model.acf", ProgramLibraryAndSelections::run(dataset, commands));
   }

@@ -1,9 +1,9 @@
 // Any bytes as a command file, and as commands given one by one.
-#include "command/command_kind.h"
 #include "command/commands.h"
 
 #include <memory>
 
+#include "command/command_kind.h"
 #include "target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {

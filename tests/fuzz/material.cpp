@@ -115,7 +115,8 @@ const Words finite_element_words = {"%%MatrixMarket matrix coordinate real symme
                                     "1.1\n",
                                     "1.D0",
                                     "1E300"};
-const Words modal_words = {"** RECORD GROUP ", "** END OF FILE\n", "**\n", " R1.0 2 1 0 0 0\n", "1.D0", "1E300", "-1E-300"};
+const Words modal_words = {"** RECORD GROUP ", "** END OF FILE\n", "**\n", " R1.0 2 1 0 0 0\n", "1.D0", "1E300",
+                           "-1E-300"};
 const Words spline_words = {"[B]\n", "Z 1 2 3\n", "{", "$", "#", "1E300", "-1E-300", ","};
 
 Words configuration_words() {

@@ -1,5 +1,5 @@
-// Whether this program is built with sanitizers: they take a multiple of the time, handle signals themselves, need to be
-// loaded first, and terabytes of addresses.
+// Whether this program is built with sanitizers: they take a multiple of the time, handle signals themselves, need to
+// be loaded first, and terabytes of addresses.
 #pragma once
 
 namespace dynalin {
