@@ -61,6 +61,11 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Accelerati
   warn_of_changed_starts(layout, first_values, op.algebraic, findings);
 
   AccelerationCorrections corrections(system, equations, lu, op);
+  if (!corrections.defined()) {
+    if (!solution->settled) return go_on();
+    const std::string reason = system.undefined_value(system.motion(op));
+    return acceleration_failure(reason.empty() ? std::string(no_finite_value) : reason, "undefined-value");
+  }
   if (!solution->settled && !corrections.settled()) return go_on();
   corrections.drop_rounding();
 

@@ -36,6 +36,8 @@ AccelerationCorrections::AccelerationCorrections(const System& system, Accelerat
     : system_(system), equations_(equations), lu_(lu), op_(op) {
   for (const bool last : {false, true}) {
     Eigen::MatrixXd step = missing(op);
+    defined_ = step.allFinite();
+    if (!defined_) return;
     if (last) {
       step.conservativeResize(Eigen::NoChange, 2);
       step.col(1) = missing_beside(system, op, [&](const OperatingPoint& at) { return missing(at); });

@@ -19,6 +19,8 @@ class AccelerationCorrections {
   // Makes the corrections. The point and its factored equations are kept by reference.
   AccelerationCorrections(const System&, AccelerationEquations&, const SparseLu&, OperatingPoint&);
 
+  // Whether the equations have a value at the point: the last step may have led to where a function has none.
+  bool defined() const { return defined_; }
   // Whether the last correction was no more than what rounds.
   bool settled();
   // Nothing is dropped where a single sample of what roundings of the point do leaves no doubt of any value: then the
@@ -35,6 +37,7 @@ class AccelerationCorrections {
   AccelerationEquations& equations_;
   const SparseLu& lu_;
   OperatingPoint& op_;
+  bool defined_ = true;
   Eigen::VectorXd last_, beside_, rounding_;  // the last correction; the answer to the sample; of every unknown
 };
 

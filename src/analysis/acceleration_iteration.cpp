@@ -127,10 +127,12 @@ class AccelerationIteration {
       if (!here) return tl::unexpected(here.error());
       if (!here->is_finite()) {
         if (!regular_ || halved_++ >= halving_limit) return without_finite_value();
+        if (halved_ == 1) ran_into_ = system_.undefined_value(system_.motion(op_));
         go_half_as_far();
         continue;
       }
       regular_ = !here->holds;
+      if (halved_ == 0) ran_into_.clear();
       halved_ = 0;
       step_ = here->right;
       const bool one_step = steps_ == AccelerationSteps::one_if_linear && !undefined_ && equations_.linear();
@@ -220,8 +222,7 @@ class AccelerationIteration {
 
   tl::unexpected<Failure> without_finite_value() const {
     const std::string reason = system_.undefined_value(system_.motion(op_));
-    return acceleration_failure(reason.empty() ? "a force or constraint has no finite value" : reason,
-                                "undefined-value", history_);
+    return acceleration_failure(reason.empty() ? std::string(no_finite_value) : reason, "undefined-value", history_);
   }
 
   tl::unexpected<Failure> undetermined_accelerations() const {
@@ -241,6 +242,10 @@ class AccelerationIteration {
   }
 
   tl::unexpected<Failure> not_converged() {
+    if (!ran_into_.empty()) {
+      return acceleration_failure(ran_into_ + "; the iteration for accelerations comes back to where that is",
+                                  "undefined-value", history_);
+    }
     if (undefined_) {
       if (const std::string reason = system_.undefined_value(system_.motion(op_)); !reason.empty()) {
         return acceleration_failure(
@@ -273,6 +278,7 @@ class AccelerationIteration {
   bool regular_ = false;  // an earlier point was
   bool undefined_ = false;
   int held_ = 0, halved_ = 0;
+  std::string ran_into_;  // what has no value where the step before this one led, if it had to be shortened
   // A solution tells what rounding makes of reactions; sizes that are no more are zero in the one after it.
   bool rounding_is_known_;
   std::vector<std::string> history_;

@@ -29,6 +29,9 @@ enum class AccelerationSteps : std::uint8_t { one_if_linear, until_settled };
 tl::expected<AccelerationSolution, Failure> iterate_accelerations(const System&, AccelerationEquations&, OperatingPoint,
                                                                   AccelerationStart, AccelerationSteps);
 
+// Where nobody can say whose.
+inline constexpr std::string_view no_finite_value = "a force or constraint has no finite value";
+
 // Whoever vanishes with the reactions is told what rounding makes of them.
 void take_rounding(const System&, const Eigen::VectorXd& of_multipliers, OperatingPoint&);
 

@@ -67,6 +67,18 @@ void define_values(StaticEquations& equations, OperatingPoint& op) {
   }
 }
 
+// Whether functions that have no value here have none at this position: all values that are defined are what their
+// functions say, and no step on the way to it.
+bool truly_undefined(const StaticEquations& equations) {
+  constexpr double met = 16 * std::numeric_limits<double>::epsilon();  // of the terms
+  const AugmentedSystem& augmented = equations.augmented();
+  for (std::int32_t k = augmented.algebraic(0); k < augmented.state(0); ++k) {
+    const double left = equations.residual()(k);
+    if (std::isfinite(left) && std::abs(left) > met * equations.magnitude()(k)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void settle(StaticEquations& equations, OperatingPoint& op) {
@@ -81,7 +93,10 @@ void settle(StaticEquations& equations, OperatingPoint& op) {
   SparseLu lu;
   for (int iteration = 0; iteration < 12; ++iteration) {
     equations.evaluate(next, true);
-    if (!equations.residual().allFinite()) return;
+    if (!equations.residual().allFinite()) {
+      if (iteration > 0 && truly_undefined(equations)) op = std::move(next);
+      return;
+    }
     Eigen::MatrixXd step = -equations.residual();
     double level = 0;  // in units of rounding
     for (std::int32_t k = 0; k < coordinates; ++k) step(k, 0) -= equations.holding(k) * a(k);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dynalin {
 
@@ -16,6 +17,11 @@ OutputTimes OutputTimes::of_count(double start, double end, std::int64_t steps) 
   OutputTimes times(start, end, (end - start) / static_cast<double>(steps));
   times.count_ = steps;
   return times;
+}
+
+bool OutputTimes::are_distinct() const {
+  constexpr double last_places = 16 * std::numeric_limits<double>::epsilon();
+  return step_ > last_places * std::max(std::abs(start_), std::abs(end_));
 }
 
 double OutputTimes::at(std::int64_t k) const { return k >= count_ ? end_ : start_ + step_ * static_cast<double>(k); }

@@ -16,6 +16,8 @@ class OutputTimes {
   double end() const { return end_; }
   double step() const { return step_; }
   std::int64_t count() const { return count_; }  // of intervals
+  // Whether numbers of double precision tell each instant from the next.
+  bool are_distinct() const;
   // The k-th of 0 … count(), exact at both ends.
   double at(std::int64_t k) const;
   // Where a step of about this length from `now`, which is before the k-th, ends: there if that is no farther, half-way

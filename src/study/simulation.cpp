@@ -11,8 +11,8 @@ namespace dynalin {
 
 namespace {
 
-tl::unexpected<StudyFailure> refused(std::string why, Diagnostics said = {}) {
-  return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}, "end-of-simulation"}, std::move(said)));
+tl::unexpected<StudyFailure> refused(std::string why, std::string_view code) {
+  return tl::unexpected(StudyFailure(Failure{"simulation", std::move(why), {}, code}));
 }
 
 Result<AdvancedPoint> advance(const System& system, const SimulationRequest& request, std::size_t freedoms,
@@ -46,7 +46,13 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
   const System& system = *result.point.system;
   if (!(request.times.end() > result.point.values.time)) {
     return refused(fmt::format("the end of a simulation, {:g}, is not after the present time, {:g}",
-                               request.times.end(), result.point.values.time));
+                               request.times.end(), result.point.values.time),
+                   "end-of-simulation");
+  }
+  if (!request.times.are_distinct()) {
+    return refused(fmt::format("outputs {:g} apart up to a time of {:g} are the same instant, but for rounding",
+                               request.times.step(), request.times.end()),
+                   "outputs-too-close");
   }
   const std::size_t freedoms = degrees_of_freedom(system, result.point.values);
   result.kind = kind_at(result.point, request.kind);

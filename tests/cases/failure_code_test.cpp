@@ -47,6 +47,8 @@ const std::vector<Failing>& table() {
       {"freedoms-in-kinematics", hinge + "END\n", "SIMULATE/KINEMATICS, END=1, STEPS=2\n"},
       {"end-of-simulation", hinge + "END\n",
        "SIMULATE/DYNAMICS, END=0.1, STEPS=2\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n"},
+      {"outputs-too-close", hinge + "END\n", "SIMULATE/DYNAMICS, END=1, DTOUT=1E-18\n"},
+      {"outputs-too-close", sprung + "END\n", "SIMULATE/STATICS, END=1, DTOUT=1E-300\n"},
       {"undefined-derivative", sprung + "SFORCE/1, ROTATION, I=20, J=1, FUNCTION=SQRT(WZ(20,1))\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"no-second-order",
