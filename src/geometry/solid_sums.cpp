@@ -9,15 +9,6 @@ namespace dynalin {
 namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
-constexpr double near_whole = 1e-7;  // of a turn: there poles decide
-
-// What is known but for multiples of `whole`.
-double between_none_and(double whole, double value, bool holds_pole) {
-  const double rest = value - whole * std::floor(value / whole);
-  if (holds_pole && rest < near_whole * whole) return rest + whole;
-  if (!holds_pole && rest > (1 - near_whole) * whole) return rest - whole;
-  return rest;
-}
 
 // Twice the area of a triangle with the axis, without cancellation where its corners are next to each other.
 double area_about_z(const Vector& p, const Vector& q) {
@@ -47,52 +38,25 @@ struct MantleIntegrals {
 
 void SolidSums::add(const FacetSection& section, const std::vector<ConicPiece>& arcs) {
   const Vector& n = section.normal;
-  Overlap::FixedPart part;
-  part.triangle = section.triangle;
-  PlaneMoments m;
-  const Vector start = section.boundary.front().from;
+  Facet facet{n, section.boundary.front().from, {}, {}};
+  facet.part.triangle = section.triangle;
   for (const FacetSection::Piece& p : section.boundary) {
     overlap.corners.push_back(p.from);
     if (p.face == SolidFace::curved) continue;
-    m.add(start, p.from, p.to, n);
-    if (p.face != SolidFace::none) add_end(p.face == SolidFace::high, p, n, part);
+    facet.moments.add(facet.start, p.from, p.to, n);
+    if (p.face != SolidFace::none) add_end(p.face == SolidFace::high, p, n, facet.part);
   }
   for (const ConicPiece& p : arcs) {
     overlap.corners.push_back(p.from), overlap.corners.push_back(p.place(0.5, 0).at);
-    m.add(start, p.from, p.to, n);
-    add_arc(p, n, m, part);
+    facet.moments.add(facet.start, p.from, p.to, n);
+    add_arc(solid_, p, facet);
+    if (solid_.has_ends()) {
+      on_mantle_.push_back(p);
+    } else {
+      keep_on_sphere(p, n);
+    }
   }
-  part.area = m.area, part.first = m.first;
-  overlap.of_J.push_back(part);
-
-  // The surface of the solid sweeps over what these do not bound: what moves in is what goes out through the facets.
-  const double h = dot(n, start);
-  net_ += n * m.area, height_ += h * m.area, height_moment_ += m.first * h, along_ += m.first * n.z;
-  overlap.volume_by_shift -= n * m.area;
-  overlap.volume_by_turn -= cross(m.first, n);
-  overlap.moment_by_shift -= outer(m.first, n);
-  const auto crossed = [&](const Vector& row) { return cross(row, n); };
-  overlap.moment_by_turn -= transpose(Matrix3{crossed(m.second.x), crossed(m.second.y), crossed(m.second.z)});
-}
-
-void SolidSums::add_arc(const ConicPiece& p, const Vector& normal, PlaneMoments& m, Overlap::FixedPart& part) {
-  const double length = norm(p.way);
-  p.for_each_place([&](const ConicPiece::Place& at) {
-    const double width = length * at.share;
-    m.add_strip(at.on_chord, p.across, at.height, width);
-    // The arc moves over the facet, and the facet over the curved surface.
-    const Vector slope = solid_.gradient(at.at), over = slope * (width / at.rise);
-    const Vector turned = cross(at.at, over);
-    part.area_by_shift += over, part.area_by_turn += turned;
-    part.first_by_shift += outer(at.at, over), part.first_by_turn += outer(at.at, turned);
-    const Vector back = normal * (norm(slope) * width / at.rise);
-    curved.area_by_shift -= back, curved.area_by_turn -= cross(at.at, back);
-  });
-  if (solid_.has_ends()) {
-    on_mantle_.push_back(p);
-  } else {
-    keep_on_sphere(p, normal);
-  }
+  FacetSums::add(facet);
 }
 
 // ∫ Q dφ, ∫ Q cos φ dφ and ∫ Q sin φ dφ by parts: by how much the angle has grown, not how fast, so that ends of arcs
@@ -161,9 +125,7 @@ void SolidSums::add_end(bool upper, const FacetSection::Piece& p, const Vector& 
 
 bool SolidSums::finish(bool lower, bool upper) {
   if (!(solid_.has_ends() ? finish_frustum(lower, upper) : finish_ellipsoid(upper))) return false;
-  // What the volume holds moves with it.
-  overlap.moment_by_shift += overlap.volume * Matrix3::identity();
-  overlap.moment_by_turn -= skew(overlap.moment);
+  carry_along();
   return true;
 }
 

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "geometry/conic_arc.h"
-#include "geometry/facet_integrals.h"
 #include "geometry/facet_section.h"
+#include "geometry/facet_sums.h"
 
 namespace dynalin {
 
-// All in the axes of the solid, from its origin. As it moves by d + w × x, an integral grows by by_shift d + by_turn w.
-class SolidSums {
+class SolidSums : public FacetSums {
  public:
   explicit SolidSums(const QuadricSolid& solid) : solid_(solid) {}
 
@@ -23,15 +22,13 @@ class SolidSums {
   // rim, or any of an ellipsoid (upper). False where what was added up is the surface of nothing.
   bool finish(bool holds_lower_pole, bool holds_upper_pole);
 
-  Overlap overlap;
-  Overlap::Part curved, low, high;  // of the solid's own surface
+  Overlap::Part low, high;  // of the solid's own surface: its ends
 
  private:
   struct End {
     double turn = 0, area = 0;  // along what cuts it
     Vector first{}, way{};
   };
-  void add_arc(const ConicPiece&, const Vector& normal, PlaneMoments&, Overlap::FixedPart&);
   void add_end(bool upper, const FacetSection::Piece&, const Vector& normal, Overlap::FixedPart&);
   void add_to_mantle(const ConicPiece&);
   void keep_on_sphere(const ConicPiece&, const Vector& normal);
@@ -40,10 +37,7 @@ class SolidSums {
   bool finish_ellipsoid(bool holds_pole);
 
   const QuadricSolid& solid_;
-  Vector net_{};                      // ∫ n dS of the facets
-  double height_ = 0;                 // ∫ n · x dS
-  Vector height_moment_{}, along_{};  // ∫ (n · x) x dS, ∫ n_z x dS
-  double base_ = 0;                   // height on the axis
+  double base_ = 0;  // height on the axis
   std::vector<ConicPiece> on_mantle_;
   double turn_ = 0, area_ = 0;
   Vector first_{};
