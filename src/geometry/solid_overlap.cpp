@@ -7,6 +7,8 @@
 #include "geometry/seen_back.h"
 #include "geometry/solid_crossings.h"
 #include "geometry/solid_sums.h"
+#include "geometry/torus_crossings.h"
+#include "geometry/torus_sums.h"
 
 namespace dynalin {
 
@@ -34,7 +36,8 @@ struct BoxesIn {
   }
 };
 
-std::vector<Index> near_triangles(const QuadricSolid& solid, const RelativeFrame<double>& f, const FacetBody& J) {
+template <class Solid>
+std::vector<Index> near_triangles(const Solid& solid, const RelativeFrame<double>& f, const FacetBody& J) {
   const double slack = 1e-11 * (solid.size() + J.radius());
   Vector low, high;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -50,9 +53,10 @@ std::vector<Index> near_triangles(const QuadricSolid& solid, const RelativeFrame
 }
 
 // And for the least distance.
+template <class Solid>
 struct NearestTriangle {
   using Scalar = double;
-  const QuadricSolid& solid;
+  const Solid& solid;
   const PlacedSurface& surface;
   const RelativeFrame<double>& from_J;
   const FacetBody::Tree& tree;
@@ -88,49 +92,87 @@ struct Turned {
   }
 };
 
-// False where roundings leave open what there is.
-bool find_volumes(SolidCrossings& crossings, const QuadricSolid& solid, const RelativeFrame<double>& f,
-                  const FacetBody& J, bool cavity, SolidOverlaps& found) {
-  if (!crossings.consistent()) return false;
-  const auto inside = [&](const Vector& p) { return J.nearest(f.p + along(f, p)).outside == cavity; };
-  found.engulfed = crossings.empty() ? inside(solid.centre()) : crossings.has_closed_patch();
-  if (crossings.empty() || found.engulfed) return true;
-  const bool lower = solid.has_ends() && inside(crossings.pole(false)), upper = inside(crossings.pole(true));
-  crossings.join(lower, upper);
-  if (!crossings.consistent()) return false;
-  std::map<std::size_t, SolidSums> volumes;  // in order of their first facet
+// Of all parts of facets, each volume's one after the other in order of their first facets. finish(sums, volume): false
+// where it is none.
+template <class Sums, class Parts, class Solid, class Add, class Finish>
+bool add_up(Parts& parts, const Solid& solid, const Add& add, const Finish& finish, std::vector<Sums>& all) {
+  std::map<std::size_t, Sums> volumes;
   std::unordered_map<std::size_t, std::size_t> number;
-  for (const auto& part : crossings.parts()) {
+  for (const auto& part : parts) {
     const std::size_t n = number.try_emplace(part.volume, number.size()).first->second;
-    volumes.try_emplace(n, solid).first->second.add(part.section, part.arcs);
+    add(volumes.try_emplace(n, solid).first->second, part);
   }
   for (const auto& [volume, n] : number) {
-    SolidSums& sums = volumes.at(n);
-    if (!sums.finish(lower && volume == crossings.volume_of_pole(false),
-                     upper && volume == crossings.volume_of_pole(true)))
-      return false;
+    if (!finish(volumes.at(n), volume)) return false;
   }
-  for (auto& [n, sums] : volumes) {
-    SolidOverlap& o =
-        found.volumes.emplace_back(SolidOverlap{std::move(sums.overlap), sums.curved, sums.low, sums.high});
-    Turned{{f.x, f.y, f.z}}(o);
-    o.origin = f.p;
-  }
+  for (auto& [n, sums] : volumes) all.push_back(std::move(sums));
   return true;
 }
 
-}  // namespace
+struct Surroundings {
+  const RelativeFrame<double>& from_J;
+  const FacetBody& J;
+  bool cavity;
+  bool hold(const Vector& p) const { return J.nearest(from_J.p + along(from_J, p)).outside == cavity; }
+};
 
-SolidOverlaps find_overlaps(const QuadricSolid& solid, const RelativeFrame<double>& f, const FacetBody& J,
-                            bool cavity) {
+void add_volume(FacetSums& sums, const Overlap::Part& low, const Overlap::Part& high, SolidOverlaps& found) {
+  SolidOverlap& o = found.volumes.emplace_back(SolidOverlap{std::move(sums.overlap), sums.curved, low, high});
+  o.origin = sums.origin;
+}
+
+// False where roundings leave open what there is.
+bool find_volumes(const QuadricSolid& solid, const PlacedSurface& surface, const std::vector<Index>& near,
+                  const Surroundings& around, SolidOverlaps& found) {
+  SolidCrossings crossings(solid, surface, near);
+  if (!crossings.consistent()) return false;
+  found.engulfed = crossings.empty() ? around.hold(solid.centre()) : crossings.has_closed_patch();
+  if (crossings.empty() || found.engulfed) return true;
+  const bool lower = solid.has_ends() && around.hold(crossings.pole(false)), upper = around.hold(crossings.pole(true));
+  crossings.join(lower, upper);
+  if (!crossings.consistent()) return false;
+  const auto finish = [&](SolidSums& sums, std::size_t volume) {
+    return sums.finish(lower && volume == crossings.volume_of_pole(false),
+                       upper && volume == crossings.volume_of_pole(true));
+  };
+  std::vector<SolidSums> volumes;
+  const auto add = [](SolidSums& sums, const SolidCrossings::Part& p) { sums.add(p.section, p.arcs); };
+  if (!add_up(crossings.parts(), solid, add, finish, volumes)) return false;
+  for (SolidSums& s : volumes) add_volume(s, s.low, s.high, found);
+  return true;
+}
+
+bool find_volumes(const TorusSolid& torus, const PlacedSurface& surface, const std::vector<Index>& near,
+                  const Surroundings& around, SolidOverlaps& found) {
+  TorusCrossings crossings(torus, surface, near);
+  if (!crossings.consistent()) return false;
+  found.engulfed = crossings.empty() ? around.hold(torus.centre()) : crossings.has_closed_patch();
+  if (crossings.empty() || found.engulfed) return true;
+  crossings.join(around.hold(crossings.seam()));
+  if (!crossings.consistent()) return false;
+  const auto finish = [&](TorusSums& sums, std::size_t volume) {
+    return sums.finish(crossings.holds_most_of_seam(volume));
+  };
+  std::vector<TorusSums> volumes;
+  const auto add = [](TorusSums& sums, const TorusCrossings::Part& p) { sums.add(p.section); };
+  if (!add_up(crossings.parts(), torus, add, finish, volumes)) return false;
+  for (TorusSums& s : volumes) add_volume(s, {}, {}, found);
+  return true;
+}
+
+template <class Solid>
+SolidOverlaps overlaps_of(const Solid& solid, const RelativeFrame<double>& f, const FacetBody& J, bool cavity) {
   const double size = solid.size() + J.radius();
   for (const double times : {1.0, -7.0, 53.0}) {
     const Vector aside = (times * beside * size) * beside_way;
     const RelativeFrame<double> moved{f.p + aside, f.x, f.y, f.z};
     const PlacedSurface surface(J, seen_back(moved), cavity);
-    SolidCrossings crossings(solid, surface, near_triangles(solid, moved, J));
     SolidOverlaps found;
-    if (!find_volumes(crossings, solid, moved, J, cavity, found)) continue;
+    if (!find_volumes(solid, surface, near_triangles(solid, moved, J), {moved, J, cavity}, found)) continue;
+    for (SolidOverlap& o : found.volumes) {
+      Turned{{f.x, f.y, f.z}}(o);
+      o.origin = moved.p + along(f, o.origin);
+    }
     found.aside = aside;
     return found;
   }
@@ -139,11 +181,29 @@ SolidOverlaps find_overlaps(const QuadricSolid& solid, const RelativeFrame<doubl
   return none;
 }
 
-double least_distance(const QuadricSolid& solid, const RelativeFrame<double>& f, const FacetBody& J) {
+template <class Solid>
+double least_distance_of(const Solid& solid, const RelativeFrame<double>& f, const FacetBody& J) {
   const RelativeFrame<double> from_J = seen_back(f);
   const PlacedSurface surface(J, from_J, false);
-  NearestTriangle search{solid, surface, from_J, J.tree()};
+  NearestTriangle<Solid> search{solid, surface, from_J, J.tree()};
   return std::max(Eigen::BVMinimize(J.tree().hierarchy, search), 0.0);
+}
+
+}  // namespace
+
+SolidOverlaps find_overlaps(const QuadricSolid& solid, const RelativeFrame<double>& f, const FacetBody& J,
+                            bool cavity) {
+  return overlaps_of(solid, f, J, cavity);
+}
+SolidOverlaps find_overlaps(const TorusSolid& torus, const RelativeFrame<double>& f, const FacetBody& J, bool cavity) {
+  return overlaps_of(torus, f, J, cavity);
+}
+
+double least_distance(const QuadricSolid& solid, const RelativeFrame<double>& f, const FacetBody& J) {
+  return least_distance_of(solid, f, J);
+}
+double least_distance(const TorusSolid& torus, const RelativeFrame<double>& f, const FacetBody& J) {
+  return least_distance_of(torus, f, J);
 }
 
 }  // namespace dynalin

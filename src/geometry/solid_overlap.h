@@ -8,10 +8,11 @@
 
 #include "geometry/facet_overlap.h"
 #include "geometry/quadric_solid.h"
+#include "geometry/torus_solid.h"
 
 namespace dynalin {
 
-// The solid is I. Of its surface: the curved one, and both ends.
+// The solid is I. Of its surface: the curved one, and both ends where it has any.
 struct SolidOverlap : Overlap {
   Part curved, low, high;
 };
@@ -26,7 +27,10 @@ struct SolidOverlaps {
 // `cavity`: J is what is around its facets instead of in them.
 SolidOverlaps find_overlaps(const QuadricSolid& I, const RelativeFrame<double>& I_from_J, const FacetBody& J,
                             bool cavity);
+SolidOverlaps find_overlaps(const TorusSolid& I, const RelativeFrame<double>& I_from_J, const FacetBody& J,
+                            bool cavity);
 // Between surfaces that do not cross, at least. [length]
 double least_distance(const QuadricSolid& I, const RelativeFrame<double>& I_from_J, const FacetBody& J);
+double least_distance(const TorusSolid& I, const RelativeFrame<double>& I_from_J, const FacetBody& J);
 
 }  // namespace dynalin

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "geometry/overlap_law.h"
 #include "geometry/solid_overlap.h"
@@ -12,11 +13,13 @@ namespace {
 
 using namespace overlap_law;  // NOLINT: what this file is about
 
-constexpr double shallow = 1e-6;  // of the size: a mean depth below which roundings say what means are
+// Of the size: a mean depth below which roundings say what means are; those of a torus are measured from its lines.
+constexpr double shallow_of(const QuadricSolid&) { return 1e-6; }
+constexpr double shallow_of(const TorusSolid&) { return 1e-7; }
 
-template <class T>
+template <class Solid, class T>
 struct PlacedSolid {
-  const QuadricSolid& solid;
+  const Solid& solid;
   RelativeFrame<T> at;
 
   template <class S>
@@ -25,9 +28,16 @@ struct PlacedSolid {
   }
 };
 
-// Of an ellipsoid, whose one face it is, nothing is a side; of others ends and the mantle may be.
+// Of an ellipsoid and a torus, whose one face it is, nothing is a side; of others ends and the mantle may be.
 template <class T>
-NetArea<T> net_area(const PlacedSolid<T>& I, const SolidOverlap& o, const NetArea<T>& of_J, const Nudge<T>& nudge) {
+NetArea<T> net_area(const PlacedSolid<TorusSolid, T>&, const SolidOverlap&, const NetArea<T>& of_J, const Nudge<T>&) {
+  NetArea<T> net;
+  net.all = net.face = -of_J.all;
+  return net;
+}
+template <class T>
+NetArea<T> net_area(const PlacedSolid<QuadricSolid, T>& I, const SolidOverlap& o, const NetArea<T>& of_J,
+                    const Nudge<T>& nudge) {
   NetArea<T> net;
   net.all = net.face = -of_J.all;
   if (!I.solid.has_ends()) return net;
@@ -50,7 +60,7 @@ NetArea<T> net_area(const PlacedSolid<T>& I, const SolidOverlap& o, const NetAre
 
 // From a place in the solid along a direction to its surface.
 template <class T>
-T length_out_of(const PlacedSolid<T>& I, const Vec3<T>& from, const Vec3<T>& way, double& seam) {
+T length_out_of(const PlacedSolid<QuadricSolid, T>& I, const Vec3<T>& from, const Vec3<T>& way, double& seam) {
   const QuadricSolid& s = I.solid;
   const Vec3<T> p = I.in_its_axes(from - I.at.p), w = I.in_its_axes(way);
   const Vector p0 = value_of(p), w0 = value_of(w);
@@ -67,10 +77,20 @@ T length_out_of(const PlacedSolid<T>& I, const Vec3<T>& from, const Vec3<T>& way
   return length - s.value(p + w * length) / dot(s.gradient(line.to), w0);
 }
 
+template <class T>
+T length_out_of(const PlacedSolid<TorusSolid, T>& I, const Vec3<T>& from, const Vec3<T>& way, double& seam) {
+  const TorusSolid& s = I.solid;
+  const Vec3<T> p = I.in_its_axes(from - I.at.p), w = I.in_its_axes(way);
+  const Vector p0 = value_of(p), w0 = value_of(w), to = line_through(s, p0, p0 + w0 * (2 * s.size())).at[0];
+  seam = std::numeric_limits<double>::infinity();
+  const double length = dot(to - p0, w0);
+  return length - s.value(p + w * length) / dot(s.gradient(to), w0);
+}
+
 // From the middle along the normal to where both surfaces are met. Of what is shallower than roundings of its centroid
 // that may be beside it, above or below the facets.
-template <class T>
-std::optional<Reach<T>> met_reach(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J,
+template <class Solid, class T>
+std::optional<Reach<T>> met_reach(const SolidOverlap& o, const PlacedSolid<Solid, T>& I, const PlacedFacets<T>& J,
                                   const Vec3<T>& middle, const Vec3<T>& normal, double& seam) {
   const PlacedFacets<double> plain_J{J.body, plain(J.frame), J.sign};
   const Vector way = value_of(normal);
@@ -89,15 +109,31 @@ std::optional<Reach<T>> met_reach(const SolidOverlap& o, const PlacedSolid<T>& I
   return Reach<T>{J.length_to(up->triangle, from, normal) + shift, down - shift};
 }
 
+// Of a ring that just touches a face all around, whose middle is in its hole: a trough is half again as deep as it is
+// in the mean.
+template <class T>
+Reach<T> trough_reach(const SolidOverlap& o, const PlacedFacets<T>& J, const Nudge<T>& nudge, const Vec3<T>& middle,
+                      const Vec3<T>& normal) {
+  T seen(0.0), height(0.0);
+  for (const Overlap::FixedPart& p : o.of_J) {
+    const T cosine = dot(J.normal(p.triangle), normal);
+    seen += cosine * nudge.of(p.area, p.area_by_shift, p.area_by_turn);
+    height += cosine * dot(normal, nudge.of(p.first, p.first_by_shift, p.first_by_turn));
+  }
+  const T up = height / seen - dot(normal, middle - o.origin);
+  return {up, 1.5 * nudge.of(o.volume, o.volume_by_shift, o.volume_by_turn) / seen - up};
+}
+
 // Whether a volume is as long in a direction: from its highest place on a facet to its deepest one on a facet or, where
 // that is in the body, of the solid.
-bool reaches_along(const SolidOverlap& o, const PlacedSolid<double>& I, const FacetBody& J, bool cavity,
+template <class Solid>
+bool reaches_along(const SolidOverlap& o, const PlacedSolid<Solid, double>& I, const FacetBody& J, bool cavity,
                    const Vector& along, double least) {
   if (extent(o, along) >= least) return true;
-  const Vector local = I.solid.farthest(-I.in_its_axes(along)), deepest = turned(I.at, local);
+  const Vector deepest = turned(I.at, I.solid.farthest(-I.in_its_axes(along)));
   double high = -std::numeric_limits<double>::infinity();
   for (const Vector& v : o.corners) high = std::max(high, dot(v, along));
-  return high - dot(deepest, along) >= least && J.nearest(I.at.p + deepest).outside == cavity;
+  return high - dot(deepest + (I.at.p - o.origin), along) >= least && J.nearest(I.at.p + deepest).outside == cavity;
 }
 
 // 0 where a volume is so small that roundings say where its centroid is, as the first touch of a corner is, to 1.
@@ -108,8 +144,8 @@ T share_of_centroid(const T& volume, const T& area, double size) {
   return value_of(v) > 0 ? step(T(v * v * area / (size * size)), small, large) : T(0.0);
 }
 
-template <class T>
-Touch<T> touch_of(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFacets<T>& J) {
+template <class Solid, class T>
+Touch<T> touch_of(const SolidOverlap& o, const PlacedSolid<Solid, T>& I, const PlacedFacets<T>& J) {
   const double surface = surface_of(o.of_J), size = I.solid.size(), none = just_touching * (size + J.body.radius());
   const Nudge<T> nudge(I.at, o.origin);
   T area(0.0);
@@ -129,40 +165,61 @@ Touch<T> touch_of(const SolidOverlap& o, const PlacedSolid<T>& I, const PlacedFa
   const NetArea<T> of_J = overlap_law::net_area(J, o.of_J, nudge);
   const auto normal =
       normal_of(net_area(I, o, of_J, nudge), of_J, std::min(surface, o.curved.area + o.low.area + o.high.area));
-  const PlacedSolid<double> plain_I{I.solid, plain(I.at)};
+  const PlacedSolid<Solid, double> plain_I{I.solid, plain(I.at)};
+  const bool is_shallow = o.volume <= shallow_of(I.solid) * size * surface;
   const Touch<T> t = touch_in(
       o, J, nudge, middle, normal,
-      [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) { return met_reach(o, I, J, from, way, seam); },
+      [&](const Vec3<T>& from, const Vec3<T>& way, double& seam) {
+        auto met = met_reach(o, I, J, from, way, seam);
+        if (std::is_same_v<Solid, TorusSolid> && is_shallow && !met) met = trough_reach(o, J, nudge, from, way);
+        return met;
+      },
       [&](const Vector& along, double least) {
-        if (o.volume <= shallow * size * surface) return false;
+        if (is_shallow) return false;
         return reaches_along(o, plain_I, J.body, J.sign < 0, along, least);
       });
   if (is_small && normal && !(t.defined && value_of(t.gap) < -none)) return {};
   return t;
 }
 
-}  // namespace
-
-template <class T>
-void touch_overlaps(const QuadricSolid& solid, const RelativeFrame<T>& I_from_J, const FacetBody& J_body, bool cavity,
-                    std::span<Touch<T>> out) {
+template <class Solid, class T>
+void touch_solid(const Solid& solid, const RelativeFrame<T>& I_from_J, const FacetBody& J_body, bool cavity,
+                 std::span<Touch<T>> out) {
   const RelativeFrame<double> f = plain(I_from_J);
   const SolidOverlaps found = find_overlaps(solid, f, J_body, cavity);
   const bool undefined = found.engulfed || !found.definite;
   fill_apart(solid.size() + J_body.radius(), undefined, out);
   if (undefined) return;
   if (found.volumes.empty()) out[0].gap = T(least_distance(solid, f, J_body));
-  const PlacedSolid<T> I{solid, aside(I_from_J, found.aside)};
-  const PlacedSolid<Dual<1>> moving{solid, along_the_way(I_from_J, found.aside)};
+  const PlacedSolid<Solid, T> I{solid, aside(I_from_J, found.aside)};
+  const PlacedSolid<Solid, Dual<1>> moving{solid, along_the_way(I_from_J, found.aside)};
   const PlacedFacets<T> J = standing<T>(J_body, cavity);
   const auto still = standing<Dual<1>>(J_body, cavity);
   touch_each(
       found.volumes, [&](const SolidOverlap& o) { return back(touch_of(o, I, J), touch_of(o, moving, still)); }, out);
 }
 
+}  // namespace
+
+template <class T>
+void touch_overlaps(const QuadricSolid& solid, const RelativeFrame<T>& I_from_J, const FacetBody& J, bool cavity,
+                    std::span<Touch<T>> out) {
+  touch_solid(solid, I_from_J, J, cavity, out);
+}
+template <class T>
+void touch_overlaps(const TorusSolid& torus, const RelativeFrame<T>& I_from_J, const FacetBody& J, bool cavity,
+                    std::span<Touch<T>> out) {
+  touch_solid(torus, I_from_J, J, cavity, out);
+}
+
 template void touch_overlaps(const QuadricSolid&, const RelativeFrame<double>&, const FacetBody&, bool,
                              std::span<Touch<double>>);
 template void touch_overlaps(const QuadricSolid&, const RelativeFrame<Dual<12>>&, const FacetBody&, bool,
+                             std::span<Touch<Dual<12>>>);
+
+template void touch_overlaps(const TorusSolid&, const RelativeFrame<double>&, const FacetBody&, bool,
+                             std::span<Touch<double>>);
+template void touch_overlaps(const TorusSolid&, const RelativeFrame<Dual<12>>&, const FacetBody&, bool,
                              std::span<Touch<Dual<12>>>);
 
 }  // namespace dynalin

@@ -59,7 +59,7 @@ std::size_t count_of([[maybe_unused]] const A& a, [[maybe_unused]] const B& b, b
     if constexpr (std::is_same_v<A, Box> || std::is_same_v<A, Polyhedron>) {
       if (meets_by_volume(a, b, B_reversed)) return most_overlaps;
     }
-    if constexpr (std::is_same_v<A, Frustum> || std::is_same_v<A, Ellipsoid>) {
+    if constexpr (std::is_same_v<A, Frustum> || std::is_same_v<A, Ellipsoid> || std::is_same_v<A, Torus>) {
       if (meets_by_volume(a, b, B_reversed)) return most_overlaps;
     }
     if (!body || B_reversed) return 0;
@@ -193,7 +193,12 @@ void direct(const Side& A, const Side& B, const RelativeFrame<T>& A_from_B, std:
           return;
         } else if constexpr (std::is_same_v<U, Polyhedron>) {
           if constexpr (std::is_same_v<S, Ball>) touch_facets(a, A_from_B.p, *b.body, B.reversed, out);
-          if constexpr (std::is_same_v<S, Torus>) touch_torus(a, A_from_B, b, out);
+          if constexpr (std::is_same_v<S, Torus>) {
+            if (meets_by_volume(a, b, B.reversed))
+              touch_overlaps(TorusSolid(a), A_from_B, *b.body, B.reversed, out);
+            else
+              touch_torus(a, A_from_B, b, out);
+          }
           if constexpr (std::is_same_v<S, Frustum> || std::is_same_v<S, Ellipsoid>) {
             if (meets_by_volume(a, b, B.reversed))
               touch_overlaps(QuadricSolid(a), A_from_B, *b.body, B.reversed, out);

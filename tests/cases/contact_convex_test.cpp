@@ -151,10 +151,10 @@ TEST_F(ContactConvex, as_deep_along_two_directions_are_named) {
   EXPECT_THAT(r.err, HasSubstr("CONTACT/1 touch all around or in more places than can be told apart"));
 }
 
-TEST_F(ContactConvex, what_is_not_convex_is_refused_by_what_it_is) {
+TEST_F(ContactConvex, in_a_tube_are_refused_by_what_they_are) {
   const std::string part = "PART/2, MASS=2, CM=2, IP=0.1,0.12,0.2, QG=0,0,0.2\nMARKER/2\n",
                     angle = "0,0,0, 2,0,0, 2,1,0, 1,1,0, 1,2,0, 0,2,0, 0,0,0";
-  const auto said = [&](const std::string& on_ground, const std::string& on_part, const std::string& flip = "") {
+  const auto said = [&](const std::string& on_ground, const std::string& on_part, const std::string& flip) {
     const RunResult r = run(head + "MARKER/5, PART=1, QP=-1,-1,-1\n" + on_ground + part + on_part +
                                 "CONTACT/1, IGEOM=2, JGEOM=1, " + flip + law + "END\n",
                             "LINEAR/EIGENSOL\n");
@@ -166,11 +166,10 @@ TEST_F(ContactConvex, what_is_not_convex_is_refused_by_what_it_is) {
     return HasSubstr("CONTACT/1 lets GRAPHICS/1, " + on_ground + ", touch GRAPHICS/2, " + on_part +
                      ", which is not available yet");
   };
-  EXPECT_THAT(said(extrusion(1, 5, angle, 7, 1), "GRAPHICS/2, TORUS, CM=2, MAJOR_RADIUS=0.3, MINOR_RADIUS=0.1\n"),
-              refused("a body of facets that is not convex", "a TORUS"));
-  EXPECT_THAT(
-      said(crate(1, 5, 2, 2, 1), "GRAPHICS/2, TORUS, CM=2, MAJOR_RADIUS=0.3, MINOR_RADIUS=0.1\n", "JFLIP_GEOMETRY=1, "),
-      refused("the inside of a convex body of facets", "a TORUS"));
+  const std::string tube = "GRAPHICS/2, TORUS, CM=2, MAJOR_RADIUS=3, MINOR_RADIUS=2\n", inside = "IFLIP_GEOMETRY=2, ";
+  EXPECT_THAT(said(extrusion(1, 5, angle, 7, 1), tube, inside),
+              refused("a body of facets that is not convex", "the inside of a TORUS"));
+  EXPECT_THAT(said(crate(1, 5, 2, 2, 1), tube, inside), refused("a convex body of facets", "the inside of a TORUS"));
 }
 
 // An angle of two convex legs: each presses with its own corners.

@@ -104,21 +104,6 @@ TEST_F(ContactFlat, a_prism_of_facets_lies_on_two_rollers) {
   EXPECT_NEAR(std::abs(v[5]), std::sqrt(4 * k * c * c / m) / (2 * std::numbers::pi), 1e-7);
 }
 
-TEST_F(ContactFlat, rings_in_what_is_not_convex_and_in_cavities_are_refused_by_name) {
-  const auto said = [&](const std::string& points, const std::string& shape, const std::string& flip = "") {
-    const RunResult r = run(head + "MARKER/5, PART=1, QP=-1,-1,-0.5\n" + extrusion(1, 5, points, 7, 0.5) +
-                                on_it(shape, "QG=0,0,0.3", false, flip + rubs) + "END\n",
-                            "LINEAR/EIGENSOL\n");
-    EXPECT_EQ(r.status, 1);
-    EXPECT_THAT(r.err, HasSubstr("[contact-pair-not-built]"));
-    return r.err;
-  };
-  const std::string angle = "0,0,0, 2,0,0, 2,1,0, 1,1,0, 1,2,0, 0,2,0, 0,0,0",
-                    slab = "0,0,0, 2,0,0, 2,1,0, 2,2,0, 1,2,0, 0,2,0, 0,0,0";
-  EXPECT_THAT(said(angle, ring), HasSubstr("a body of facets that is not convex, touch GRAPHICS/2, a TORUS"));
-  EXPECT_THAT(said(slab, ring, "JFLIP_GEOMETRY=1, "), HasSubstr("the inside of a convex body of facets"));
-}
-
 // Of a mantle on a dome the force jumps from edge to edge, which is said before anything runs; on prisms it does not.
 TEST_F(ContactFlat, of_a_mantle_on_a_dome_of_facets_is_warned_of) {
   const double g = 1.6180339887498949;

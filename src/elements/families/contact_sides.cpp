@@ -169,12 +169,10 @@ bool check_pairs(const Model& model, const ElementLabel& label, const ContactSid
           fmt::format("{} lets {}, {}, touch {}, {}, which is not available yet", label.text(),
                       model.label(J.graphics).text(), name_of(f.J[b].side), model.label(I.graphics).text(),
                       name_of(f.I[a].side)),
-          "all solids touch each other, a PLANE and the walls of a cavity; but a TORUS touches nothing that is drawn "
-          "in "
-          "facets and not convex, and no cavity of facets (a REVOLUTION may stand for it, several convex bodies for "
-          "what "
-          "is not), of other cavities ELLIPSOIDs touch BOX, CYLINDER and FRUSTUM alone, and CYLINDERs, FRUSTUMs and "
-          "BOXes no TORUS; only one of two closed curves is a cavity");
+          "all solids touch each other, a PLANE and the walls of a cavity; but of cavities that are not drawn in "
+          "facets "
+          "ELLIPSOIDs touch BOX, CYLINDER and FRUSTUM alone, and CYLINDERs, FRUSTUMs, BOXes and bodies of facets no "
+          "TORUS; only one of two closed curves is a cavity");
       return false;
     }
   }
