@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "system/sparse_lu.h"
 
 namespace dynalin {
 
@@ -22,20 +25,63 @@ struct Allowed {
   Matrix basis, stiffness;
 };
 
+// The tangent by blocks, coordinates in units of their sizes: what coordinates push and ask of each other in full,
+// values and states, of which there may be any number, as entries.
+struct Blocks {
+  Matrix K, onto, G;  // of coordinates; of multipliers on them; of rows
+  std::vector<Triplet> by_others, others,
+      by_coordinates;  // coordinates by the others; these by themselves and by those
+};
+
+Blocks blocks(const StaticEquations& equations, const Eigen::VectorXd& size) {
+  const std::int32_t n = static_cast<std::int32_t>(size.size()), first = equations.augmented().algebraic(0);
+  Blocks b{Matrix::Zero(n, n), Matrix::Zero(n, first - n), Matrix::Zero(first - n, n), {}, {}, {}};
+  for_each_entry(equations.tangent(0, 0), [&](std::int32_t r, std::int32_t c, double v) {
+    if (r < n) v *= size(r);
+    if (c < n) v *= size(c);
+    if (r < n) {
+      if (c < n)
+        b.K(r, c) += v;
+      else if (c < first)
+        b.onto(r, c - n) += v;
+      else
+        b.by_others.push_back({r, c - first, v});
+    } else if (r < first) {
+      if (c < n) b.G(r - n, c) += v;
+    } else if (c < n) {
+      b.by_coordinates.push_back({r - first, c, v});
+    } else if (c >= first) {
+      b.others.push_back({r - first, c - first, v});
+    }
+  });
+  return b;
+}
+
+// K where values and states follow; false if nothing determines them.
+bool let_others_follow(Blocks& b, std::int32_t count) {
+  constexpr Index at_once = 64;  // columns
+  SparseLu lu;
+  if (!lu.factor(compressed(count, count, b.others))) return false;
+  for (Index begin = 0; begin < b.K.cols(); begin += at_once) {
+    Matrix follow = Matrix::Zero(count, std::min(at_once, b.K.cols() - begin));
+    for (const Triplet& t : b.by_coordinates) {
+      if (t.column >= begin && t.column < begin + follow.cols()) follow(t.row, t.column - begin) += t.value;
+    }
+    lu.solve(follow);
+    for (const Triplet& t : b.by_others)
+      b.K.middleCols(begin, follow.cols()).row(t.row) -= t.value * follow.row(t.column);
+  }
+  return true;
+}
+
 std::optional<Allowed> allowed_motions(const StaticEquations& equations, const Eigen::VectorXd& size) {
   const AugmentedSystem& augmented = equations.augmented();
-  const Index n = size.size(), rows = augmented.algebraic(0) - n, others = augmented.size() - augmented.algebraic(0);
-  Matrix J = Matrix::Zero(augmented.size(), augmented.size());
-  for_each_entry(equations.tangent(0, 0), [&](std::int32_t r, std::int32_t c, double v) { J(r, c) += v; });
-  J.topRows(n).array().colwise() *= size.array();
-  J.leftCols(n).array().rowwise() *= size.transpose().array();
-  Matrix K = J.topLeftCorner(n, n);
-  if (others > 0) {  // values and states follow
-    const Eigen::FullPivLU<Matrix> lu(J.bottomRightCorner(others, others));
-    if (!lu.isInvertible()) return std::nullopt;
-    K -= J.topRightCorner(n, others) * lu.solve(J.bottomLeftCorner(others, n));
+  const Index n = size.size(), rows = augmented.algebraic(0) - n;
+  Blocks tangent = blocks(equations, size);
+  if (const std::int32_t others = augmented.size() - augmented.algebraic(0); others > 0) {
+    if (!let_others_follow(tangent, others)) return std::nullopt;
   }
-  const Matrix G = J.block(n, 0, rows, n), onto = J.block(0, n, n, rows);
+  const Matrix &K = tangent.K, &G = tangent.G, &onto = tangent.onto;
   // Friction: forces that depend on reactions.
   for (Index k = 0; k < rows; ++k) {
     const double norm = G.row(k).norm();

@@ -24,7 +24,7 @@ constexpr double units = 1;          // in the last place
 constexpr double sample_margin = 4;  // a sample is seldom the worst case
 
 // Units of states in which they compare: a coordinate as far as it moves the model by its length or a radian, its rate
-// the fastest rate of the linear model, or of the motion itself, times that.
+// the fastest rate of the linear model, or of the motion itself by its velocities and accelerations, times that.
 Eigen::VectorXd units_of_states(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(linear.A.rows());
   const auto n = static_cast<Eigen::Index>(linear.kinematic_states);
@@ -33,8 +33,10 @@ Eigen::VectorXd units_of_states(const System& system, const OperatingPoint& op, 
     if (most > 0) unit(k) = 1 / most;
   }
   double fastest = 0;
-  for (std::size_t c = 0; c < op.velocity.size(); ++c)
-    fastest = std::max(fastest, std::abs(op.velocity[c]) / system.coordinate_scale(static_cast<std::int32_t>(c)));
+  for (std::size_t c = 0; c < op.velocity.size(); ++c) {
+    const double scale = system.coordinate_scale(static_cast<std::int32_t>(c));
+    fastest = std::max({fastest, std::abs(op.velocity[c]) / scale, std::sqrt(std::abs(op.acceleration[c]) / scale)});
+  }
   for (Eigen::Index r = 0; r < n; ++r) {
     if (!linear.model.states[static_cast<std::size_t>(r)].is_rate) continue;
     for (Eigen::Index c = 0; c < n; ++c) {
