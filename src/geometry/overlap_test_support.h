@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -101,6 +102,49 @@ class Poses : public ::testing::Test {
     return {about + Vector{far * n(random_), far * n(random_), far * n(random_)}, R.x, R.y, R.z};
   }
   int draw(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+
+  // Solids turned by eighths and shifted by eighths of two bodies' size, so that rims and mantles lie in faces, along
+  // edges and in corners: what is found is continuous, and both what is in a body and what is around it make up the
+  // solid, `whole(solid)`. `most_open` poses may be left open. The caller includes find_overlaps of its solid.
+  template <class Solid, std::size_t count, class Whole>
+  void expect_definite_on_one_grid(const std::array<Solid, count>& solids, int poses, int most_open,
+                                   const Whole& whole) {
+    const FacetBody a = swept({{0, 0}, {1, 0}, {1, 0.25}, {0.5, 0.25}, {0.5, 1}, {0, 1}}, -0.25, 0.25),
+                    b = swept({{0, 0}, {0.25, 0}, {0.25, 0.5}, {0.75, 0.5}, {0.75, 0}, {1, 0}, {1, 0.75}, {0, 0.75}}, 0,
+                              0.5);
+    int seen = 0, open = 0;
+    for (int k = 0; k < poses; ++k) {
+      const Solid& solid = solids[static_cast<std::size_t>(draw(static_cast<int>(count)))];
+      const FacetBody& J = draw(2) == 0 ? a : b;
+      Matrix3 R = Matrix3::identity();
+      for (int t = 0; t < 2; ++t)
+        R = rotation_exponential(unit_vectors[static_cast<std::size_t>(draw(3))] * (draw(8) * std::numbers::pi / 4)) *
+            R;
+      RelativeFrame<double> f{{0.125 * (draw(13) - 2), 0.125 * (draw(13) - 2), 0.125 * (draw(9) - 4)}, R.x, R.y, R.z};
+      const auto volume = [&](bool cavity) {
+        const auto found = find_overlaps(solid, f, J, cavity);
+        open += !found.definite;
+        double sum = found.definite && !found.engulfed ? 0 : std::numeric_limits<double>::quiet_NaN();
+        for (const auto& o : found.volumes) {
+          EXPECT_GT(o.volume, -1e-12) << k;
+          sum += o.volume;
+        }
+        return sum;
+      };
+      const double here = volume(false), around = volume(true);
+      f.p += Vector{1.3e-9, -0.7e-9, 0.9e-9};
+      const double beside = volume(false);
+      if (std::isnan(here + beside + around)) continue;
+      EXPECT_NEAR(beside, here, 1e-8) << k;
+      if (here > 1e-6 && around > 1e-6) {
+        EXPECT_NEAR(here + around, whole(solid), 1e-9) << k;
+      }
+      seen += here > 1e-3;
+    }
+    EXPECT_GT(seen, poses / 10);
+    EXPECT_LT(open, most_open);
+  }
+
   std::mt19937_64 random_{5};
 };
 

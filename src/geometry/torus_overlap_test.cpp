@@ -160,41 +160,9 @@ TEST_F(torus_overlap, of_what_is_in_a_body_and_around_it_is_the_whole_ring) {
 }
 
 TEST_F(torus_overlap, of_bodies_drawn_on_one_grid_is_definite) {
-  const FacetBody a = swept({{0, 0}, {1, 0}, {1, 0.25}, {0.5, 0.25}, {0.5, 1}, {0, 1}}, -0.25, 0.25),
-                  b = swept({{0, 0}, {0.25, 0}, {0.25, 0.5}, {0.75, 0.5}, {0.75, 0}, {1, 0}, {1, 0.75}, {0, 0.75}}, 0,
-                            0.5);
   const std::array<TorusSolid, 3> solids{TorusSolid({0.5, 0.125}), TorusSolid({0.375, 0.125}),
                                          TorusSolid({0.25, 0.1875})};
-  int seen = 0, open = 0;
-  for (int k = 0; k < 3000; ++k) {
-    const TorusSolid& solid = solids[static_cast<std::size_t>(draw(3))];
-    const FacetBody& J = draw(2) == 0 ? a : b;
-    Matrix3 R = Matrix3::identity();
-    for (int t = 0; t < 2; ++t)
-      R = rotation_exponential(unit_vectors[static_cast<std::size_t>(draw(3))] * (draw(8) * pi / 4)) * R;
-    RelativeFrame<double> f{{0.125 * (draw(13) - 2), 0.125 * (draw(13) - 2), 0.125 * (draw(9) - 4)}, R.x, R.y, R.z};
-    const auto volume = [&](bool cavity) {
-      const SolidOverlaps found = find_overlaps(solid, f, J, cavity);
-      open += !found.definite;
-      double sum = found.definite && !found.engulfed ? 0 : std::numeric_limits<double>::quiet_NaN();
-      for (const SolidOverlap& o : found.volumes) {
-        EXPECT_GT(o.volume, -1e-12) << k;
-        sum += o.volume;
-      }
-      return sum;
-    };
-    const double here = volume(false), around = volume(true);
-    f.p += Vector{1.3e-9, -0.7e-9, 0.9e-9};
-    const double beside = volume(false);
-    if (std::isnan(here + beside + around)) continue;
-    EXPECT_NEAR(beside, here, 1e-8) << k;
-    if (here > 1e-6 && around > 1e-6) {
-      EXPECT_NEAR(here + around, whole(solid), 1e-9) << k;
-    }
-    seen += here > 1e-3;
-  }
-  EXPECT_GT(seen, 400);
-  EXPECT_LT(open, 10);
+  expect_definite_on_one_grid(solids, 3000, 10, whole);
 }
 
 // As upright as that the planes of teeth touch the ring twice on its inner side, and the same on both sides of that:
