@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "analysis/comparable_scales.h"
 
@@ -223,23 +222,7 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   rounding_of_terms_ *= epsilon;
   rounding_ = rounding_of_terms_ + epsilon * by_place;
-  carry_rounding_of_values();
   rounding_of_unknowns_ = epsilon * size;
-}
-
-// What a stiff function makes of the last places of positions is as much a force through its value as that of a
-// bushing: it goes on to all that read the value, also through other values.
-void StaticEquations::carry_rounding_of_values() {
-  constexpr int depth = 4;  // of values in each other
-  Eigen::VectorXd carried = rounding_;
-  for (int level = 0; level < depth && carried.any(); ++level) {
-    const Eigen::VectorXd of_values = std::exchange(carried, Eigen::VectorXd::Zero(rounding_.size()));
-    for_each_entry(eq_.matrix(PartialBy::algebraic), [&](std::int32_t r, std::int32_t c, double v) {
-      const Eigen::Index row = augmented_.equation(r), own = augmented_.algebraic(c);
-      if (row != own) carried(row) += std::abs(v) * of_values(own);
-    });
-    rounding_ += carried;
-  }
 }
 
 void StaticEquations::measure_parts() {

@@ -103,7 +103,6 @@ class StaticEquations {
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);
   void measure_rounding(const OperatingPoint&);
-  void carry_rounding_of_values();
   void measure_parts();
 
   bool undefined_ = false, motion_ = false;

@@ -21,18 +21,6 @@ class InclinedHinge : public Cases {
   }
 };
 
-// The spring makes of the last place of the angle what nothing else balances.
-TEST_F(InclinedHinge, is_at_rest_as_often_as_it_is_asked) {
-  for (const std::string slant : slants) {
-    for (const char* law :
-         {"-100*AZ(2,1)", "VARVAL(1)\nVARIABLE/1, FUNCTION=VARVAL(2)\nVARIABLE/2, FUNCTION=-1E4*AZ(2,1)"}) {
-      SCOPED_TRACE(slant + law);
-      const RunResult r = run(hinge(slant, law), "SIMULATE/STATICS\nSIMULATE/STATICS\nSIMULATE/STATICS\n");
-      EXPECT_EQ(r.status, 0) << r.err;
-    }
-  }
-}
-
 // A steady torque begins to turn it: no spring, no damper, and no rounding beside an acceleration of 4 rad/s².
 TEST_F(InclinedHinge, is_free_under_a_steady_torque) {
   for (const std::string slant : slants) {
