@@ -21,8 +21,8 @@ inline bool move_as_one(const Model& model, MarkerId a, MarkerId b) {
   if (A.body != B.body || (A.shapes == nullptr) != (B.shapes == nullptr)) return false;
   if (A.shapes == B.shapes) return true;
   const auto same = [](const std::vector<Vector>& x, const std::vector<Vector>& y) {
-    return std::ranges::equal(
-        x, y, [](const Vector& v, const Vector& w) { return v.x == w.x && v.y == w.y && v.z == w.z; });
+    return std::ranges::equal(x, y,
+                              [](const Vector& v, const Vector& w) { return v.x == w.x && v.y == w.y && v.z == w.z; });
   };
   const Vector node_A = A.p_BM - A.shapes->offset, node_B = B.p_BM - B.shapes->offset;
   constexpr double rounding = 1e-12;
