@@ -11,5 +11,7 @@ inline std::filesystem::path examples_folder() { return source_tree() / "example
 inline std::filesystem::path element_pages() { return source_tree() / "docs/elements"; }
 inline std::filesystem::path element_sources() { return source_tree() / "src/elements"; }
 inline std::filesystem::path nastran_decks() { return source_tree() / "tests/nastran"; }
+// Datasets as other programs and people write them, with their command files.
+inline std::filesystem::path foreign_datasets() { return source_tree() / "tests/foreign"; }
 
 }  // namespace dynalin
