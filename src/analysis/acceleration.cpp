@@ -63,8 +63,7 @@ Result<OperatingPoint> solve(const System& system, OperatingPoint op, Accelerati
   AccelerationCorrections corrections(system, equations, lu, op);
   if (!corrections.defined()) {
     if (!solution->settled) return go_on();
-    const std::string reason = system.undefined_value(system.motion(op));
-    return acceleration_failure(reason.empty() ? std::string(no_finite_value) : reason, "undefined-value");
+    return without_finite_value(system, op);
   }
   if (!solution->settled && !corrections.settled()) return go_on();
   corrections.drop_rounding();

@@ -126,7 +126,7 @@ class AccelerationIteration {
       auto here = linearized(iteration);
       if (!here) return tl::unexpected(here.error());
       if (!here->is_finite()) {
-        if (!regular_ || halved_++ >= halving_limit) return without_finite_value();
+        if (!regular_ || halved_++ >= halving_limit) return without_finite_value(system_, op_, history_);
         if (halved_ == 1) ran_into_ = system_.undefined_value(system_.motion(op_));
         go_half_as_far();
         continue;
@@ -220,11 +220,6 @@ class AccelerationIteration {
     return true;
   }
 
-  tl::unexpected<Failure> without_finite_value() const {
-    const std::string reason = system_.undefined_value(system_.motion(op_));
-    return acceleration_failure(reason.empty() ? std::string(no_finite_value) : reason, "undefined-value", history_);
-  }
-
   tl::unexpected<Failure> undetermined_accelerations() const {
     if (undefined_) {
       if (const std::string reason = system_.undefined_value(system_.motion(op_)); !reason.empty())
@@ -289,6 +284,13 @@ class AccelerationIteration {
 tl::unexpected<Failure> acceleration_failure(std::string message, std::string_view code,
                                              std::vector<std::string> details) {
   return tl::unexpected(Failure{"acceleration initial conditions", std::move(message), std::move(details), code});
+}
+
+tl::unexpected<Failure> without_finite_value(const System& system, const OperatingPoint& op,
+                                             std::vector<std::string> details) {
+  std::string reason = system.undefined_value(system.motion(op));
+  if (reason.empty()) reason = "a force or constraint has no finite value";
+  return acceleration_failure(std::move(reason), "undefined-value", std::move(details));
 }
 
 void take_rounding(const System& system, const Eigen::VectorXd& of_multipliers, OperatingPoint& op) {

@@ -29,13 +29,13 @@ enum class AccelerationSteps : std::uint8_t { one_if_linear, until_settled };
 tl::expected<AccelerationSolution, Failure> iterate_accelerations(const System&, AccelerationEquations&, OperatingPoint,
                                                                   AccelerationStart, AccelerationSteps);
 
-// Where nobody can say whose.
-inline constexpr std::string_view no_finite_value = "a force or constraint has no finite value";
-
 // Whoever vanishes with the reactions is told what rounding makes of them.
 void take_rounding(const System&, const Eigen::VectorXd& of_multipliers, OperatingPoint&);
 
 tl::unexpected<Failure> acceleration_failure(std::string message, std::string_view code,
+                                             std::vector<std::string> details = {});
+// Names what has no finite value at the point.
+tl::unexpected<Failure> without_finite_value(const System&, const OperatingPoint&,
                                              std::vector<std::string> details = {});
 
 }  // namespace dynalin

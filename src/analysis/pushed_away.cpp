@@ -25,12 +25,13 @@ struct Allowed {
   Matrix basis, stiffness;
 };
 
-// The tangent by blocks, coordinates in units of their sizes: what coordinates push and ask of each other in full,
-// values and states, of which there may be any number, as entries.
+// The tangent by blocks, coordinates in units of their sizes. There may be any number of values and states, the others:
+// what is of them are entries.
 struct Blocks {
-  Matrix K, onto, G;  // of coordinates; of multipliers on them; of rows
-  std::vector<Triplet> by_others, others,
-      by_coordinates;  // coordinates by the others; these by themselves and by those
+  Matrix K;     // coordinates by coordinates,
+  Matrix onto;  // by multipliers,
+  Matrix G;     // constraint rows by coordinates
+  std::vector<Triplet> by_others, others, others_by_coordinates;
 };
 
 Blocks blocks(const StaticEquations& equations, const Eigen::VectorXd& size) {
@@ -49,7 +50,7 @@ Blocks blocks(const StaticEquations& equations, const Eigen::VectorXd& size) {
     } else if (r < first) {
       if (c < n) b.G(r - n, c) += v;
     } else if (c < n) {
-      b.by_coordinates.push_back({r - first, c, v});
+      b.others_by_coordinates.push_back({r - first, c, v});
     } else if (c >= first) {
       b.others.push_back({r - first, c - first, v});
     }
@@ -64,7 +65,7 @@ bool let_others_follow(Blocks& b, std::int32_t count) {
   if (!lu.factor(compressed(count, count, b.others))) return false;
   for (Index begin = 0; begin < b.K.cols(); begin += at_once) {
     Matrix follow = Matrix::Zero(count, std::min(at_once, b.K.cols() - begin));
-    for (const Triplet& t : b.by_coordinates) {
+    for (const Triplet& t : b.others_by_coordinates) {
       if (t.column >= begin && t.column < begin + follow.cols()) follow(t.row, t.column - begin) += t.value;
     }
     lu.solve(follow);

@@ -44,20 +44,13 @@ std::string unit_components(Eigen::MatrixXd rows) {
 }  // namespace
 
 OpenConstraints::OpenConstraints(const System& system, const PerturbedPoint& at, const OpenDeck& open)
-    : system_(system),
-      at_(at),
-      options_(open.options),
-      ids_(open.ids),
-      deck_(open.deck),
-      points_(open.points),
-      markers_(open.markers),
-      wrenches_(open.wrenches) {}
+    : system_(system), at_(at), open_(open) {}
 
 OpenConstraints::Row OpenConstraints::at_centres(std::int32_t row) const {
   std::map<std::int32_t, std::pair<double, double>> sums;  // and the sizes of their parts
   double largest = 0;
   for (const auto& e : at_.rows.row(row)) {
-    points_.by_centres(e.column, [&](std::int32_t c, double along) {
+    open_.points.by_centres(e.column, [&](std::int32_t c, double along) {
       sums[c].first += along * e.c.g;
       sums[c].second += std::abs(along * e.c.g);
     });
@@ -87,7 +80,7 @@ std::vector<MatrixEntry> OpenConstraints::add() {
         active.push_back(at_centres(k));
       }
     }
-    if (active.empty() || (options_.use_rjoints && add_joint(*owner, active))) continue;
+    if (active.empty() || (open_.options.use_rjoints && add_joint(*owner, active))) continue;
     for (const Row& row : active) add_relation(*owner, row);
   }
   return of_velocities;
@@ -95,9 +88,9 @@ std::vector<MatrixEntry> OpenConstraints::add() {
 
 void OpenConstraints::add_velocity_row(std::int32_t row, std::vector<MatrixEntry>& entries) {
   const ElementLabel& owner = *system_.layout().rows[static_cast<std::size_t>(row)].owner;
-  const std::int32_t multiplier = points_.add_unknown("multiplier of " + name_of(owner, options_), owner.id);
+  const std::int32_t multiplier = open_.points.add_unknown("multiplier of " + name_of(owner, open_.options), owner.id);
   for (const auto& e : at_.rows.row(row)) {
-    points_.by_centres(e.column, [&](std::int32_t c, double along) {
+    open_.points.by_centres(e.column, [&](std::int32_t c, double along) {
       entries.push_back({MatrixKind::B, multiplier, c, along * e.c.g});
       entries.push_back({MatrixKind::K, multiplier, c, along * e.c.v});
       entries.push_back({MatrixKind::K, c, multiplier, -along * e.c.g});
@@ -109,8 +102,8 @@ void OpenConstraints::add_relation(const ElementLabel& owner, const Row& row) {
   if (row.empty()) return;
   if (row.size() == 1) {
     // One that is alone in its row does not move.
-    const Dof dof = points_.dof(row.begin()->first);
-    deck_.fixed_points.push_back({{-1, name_of(owner, options_)}, dof.point, std::to_string(dof.component)});
+    const Dof dof = open_.points.dof(row.begin()->first);
+    open_.deck.fixed_points.push_back({{-1, name_of(owner, open_.options)}, dof.point, std::to_string(dof.component)});
     return;
   }
   // The largest comes first, by what it moves. One that depends on another row already does not depend on this as well,
@@ -124,18 +117,18 @@ void OpenConstraints::add_relation(const ElementLabel& owner, const Row& row) {
   auto first = row.end();
   for (const bool fresh : {true, false}) {
     for (auto term = row.begin(); term != row.end() && first == row.end(); ++term) {
-      const bool free = !dependent_.contains(points_.dof(term->first));
+      const bool free = !dependent_.contains(open_.points.dof(term->first));
       if (fresh ? free && moves(*term) >= 0.1 * largest : moves(*term) == largest) first = term;
     }
   }
-  dependent_.insert(points_.dof(first->first));
+  dependent_.insert(open_.points.dof(first->first));
   Relation relation;
-  relation.name = name_of(owner, options_);
-  relation.terms.push_back({points_.dof(first->first), first->second / largest_coefficient});
+  relation.name = name_of(owner, open_.options);
+  relation.terms.push_back({open_.points.dof(first->first), first->second / largest_coefficient});
   for (auto term = row.begin(); term != row.end(); ++term) {
-    if (term != first) relation.terms.push_back({points_.dof(term->first), term->second / largest_coefficient});
+    if (term != first) relation.terms.push_back({open_.points.dof(term->first), term->second / largest_coefficient});
   }
-  deck_.relations.push_back(std::move(relation));
+  open_.deck.relations.push_back(std::move(relation));
 }
 
 std::array<double, 6> OpenConstraints::on_body(const Row& row, BodyId body, const Vector& at,
@@ -146,13 +139,13 @@ std::array<double, 6> OpenConstraints::on_body(const Row& row, BodyId body, cons
     const auto found = row.find(block.offset + k);
     if (found != row.end()) (k < 3 ? force : torque)[static_cast<std::size_t>(k % 3)] = found->second;
   }
-  torque -= cross(at - points_.centre(body), force);
+  torque -= cross(at - open_.points.centre(body), force);
   force = transpose_times(axes, force), torque = transpose_times(axes, torque);
   return {force.x, force.y, force.z, torque.x, torque.y, torque.z};
 }
 
 bool OpenConstraints::add_joint(const ElementLabel& owner, const std::vector<Row>& rows) {
-  const ReportedWrench* wrench = wrenches_.of(owner);
+  const ReportedWrench* wrench = open_.wrenches.of(owner);
   if (!wrench || rows.size() > 6) return false;
   const MarkerId I = wrench->source->marker_I(wrench->which), J = wrench->source->marker_J(wrench->which);
   if (!I.valid() || !J.valid()) return false;
@@ -168,7 +161,7 @@ bool OpenConstraints::add_joint(const ElementLabel& owner, const std::vector<Row
   Eigen::MatrixXd components(static_cast<Eigen::Index>(rows.size()), 6);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (const auto& [unknown, v] : rows[r]) {
-      const BodyId b = points_.body_of(unknown);
+      const BodyId b = open_.points.body_of(unknown);
       if (b != at_I.body && b != at_J.body) return false;
     }
     const auto on_I = on_body(rows[r], at_I.body, p, axes), on_J = on_body(rows[r], at_J.body, p, axes);
@@ -186,14 +179,15 @@ bool OpenConstraints::add_joint(const ElementLabel& owner, const std::vector<Row
   const std::string held = unit_components(std::move(components));
   if (held.empty()) return false;
   RigidJoint joint;
-  joint.name = name_of(owner, options_);
-  joint.id = ids_.take(IdSpace::element, options_.rjoint_offset + (options_.use_adams_ids ? owner.id : 0));
-  joint.grid_B = markers_.grid_of(J, Axes::local);
+  joint.name = name_of(owner, open_.options);
+  joint.id =
+      open_.ids.take(IdSpace::element, open_.options.rjoint_offset + (open_.options.use_adams_ids ? owner.id : 0));
+  joint.grid_B = open_.markers.grid_of(J, Axes::local);
   // Of the body of I at the place of J and along its axes, so that components of both are the same.
-  joint.grid_A = points_.add_riding_grid(at_I.body, fmt::format("{}, I", joint.name), p, markers_.system_of(J),
-                                         system_.layout().marker_label(I).id);
+  joint.grid_A = open_.points.add_riding_grid(at_I.body, fmt::format("{}, I", joint.name), p,
+                                              open_.markers.system_of(J), system_.layout().marker_label(I).id);
   joint.components = held;
-  deck_.rigid_joints.push_back(std::move(joint));
+  open_.deck.rigid_joints.push_back(std::move(joint));
   return true;
 }
 

@@ -35,12 +35,7 @@ class OpenConstraints {
 
   const System& system_;
   const PerturbedPoint& at_;
-  const ExportOptions& options_;
-  Ids& ids_;
-  Deck& deck_;
-  OpenPoints& points_;
-  MarkerGrids& markers_;
-  const SingleWrenches& wrenches_;
+  const OpenDeck open_;
   std::set<Dof> dependent_;  // of relations
 };
 

@@ -14,24 +14,17 @@
 namespace dynalin::nastran {
 
 OpenForces::OpenForces(const System& system, const Motion& motion, const OpenDeck& open)
-    : system_(system),
-      motion_(motion),
-      options_(open.options),
-      ids_(open.ids),
-      deck_(open.deck),
-      points_(open.points),
-      markers_(open.markers),
-      wrenches_(open.wrenches) {}
+    : system_(system), motion_(motion), open_(open) {}
 
 // --- names of matrices -----------------------------------------------------------------------------------------------
 
 // Eight characters, of which one or, of symmetric and antisymmetric parts, two come first.
 std::size_t OpenForces::longest_suffix() const {
-  return options_.split_dmigs && options_.solution_number == 108 ? 6 : 7;
+  return open_.options.split_dmigs && open_.options.solution_number == 108 ? 6 : 7;
 }
 
 StudyResult<void> OpenForces::refuse(std::string message, Diagnostics& remarks) const {
-  if (!options_.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
+  if (!open_.options.ignore_errors) return tl::unexpected(StudyFailure({"export", std::move(message), {}}));
   remarks.warning("export-left-out", {}, message + "; the export goes on without it");
   return {};
 }
@@ -82,11 +75,11 @@ std::string OpenForces::automatic_suffix(const ElementLabel& label) {
 }
 
 StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& elements, Diagnostics& remarks) {
-  taken_ = {options_.forces_dmig_name, options_.differentials_dmig_name};
-  for (const Editable& e : options_.force_editable) {
+  taken_ = {open_.options.forces_dmig_name, open_.options.differentials_dmig_name};
+  for (const Editable& e : open_.options.force_editable) {
     if (auto done = take_suffix(e, e.type, remarks); !done) return done;
   }
-  for (const Editable& e : options_.flexbody_editable) {
+  for (const Editable& e : open_.options.flexbody_editable) {
     if (auto done = take_suffix(e, "flex_body", remarks); !done) return done;
   }
   // By the labels of the contributions from here on.
@@ -99,7 +92,7 @@ StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& e
     const auto found = stated.find({c.element->statement, c.element->id});
     if (found != stated.end())
       of_contributions[c.element] = found->second;
-    else if (body ? options_.all_flexbodies_editable : options_.all_forces_editable)
+    else if (body ? open_.options.all_flexbodies_editable : open_.options.all_forces_editable)
       of_contributions[c.element] = automatic_suffix(*c.element);
   }
   suffix_ = std::move(of_contributions);
@@ -109,7 +102,7 @@ StudyResult<void> OpenForces::choose_suffixes(const std::vector<Contribution>& e
 // --- bushes ----------------------------------------------------------------------------------------------------------
 
 bool OpenForces::find_place(const ElementLabel& label, Place& place) {
-  const ReportedWrench* reported = wrenches_.of(label);
+  const ReportedWrench* reported = open_.wrenches.of(label);
   if (!reported) return false;
   const WrenchSource& source = *reported->source;
   MarkerWrench wrench;
@@ -135,20 +128,20 @@ bool OpenForces::find_place(const ElementLabel& label, Place& place) {
     const Vector z = normalized(cross(x, beside));
     place.axes = {x, cross(z, x), z};
     CoordinateSystem s;
-    s.name = fmt::format("line of {}", name_of(label, options_));
-    s.id = place.system = ids_.take(IdSpace::coordinate_system, options_.cord2r_offset);
+    s.name = fmt::format("line of {}", name_of(label, open_.options));
+    s.id = place.system = open_.ids.take(IdSpace::coordinate_system, open_.options.cord2r_offset);
     s.origin = place.J, s.axes = place.axes;
-    deck_.systems.push_back(std::move(s));
+    open_.deck.systems.push_back(std::move(s));
   } else if (known_axes) {
     place.axes = motion_.axes(system_.layout().marker(of_axes));
-    place.system = markers_.system_of(of_axes);
+    place.system = open_.markers.system_of(of_axes);
   } else {
     place.axes = Matrix3::identity();
   }
-  place.grid_I = markers_.grid_of(I, Axes::local);
-  place.grid_J =
-      J_fixed ? markers_.grid_of(J, Axes::local)
-              : points_.add_riding_grid(place.body_J, fmt::format("{}, J", name_of(label, options_)), place.J, 0, 0);
+  place.grid_I = open_.markers.grid_of(I, Axes::local);
+  place.grid_J = J_fixed ? open_.markers.grid_of(J, Axes::local)
+                         : open_.points.add_riding_grid(
+                               place.body_J, fmt::format("{}, J", name_of(label, open_.options)), place.J, 0, 0);
   return true;
 }
 
@@ -162,7 +155,7 @@ OpenForces::AtPoint OpenForces::at_point(const std::vector<MatrixEntry>& entries
     part[r / 3][c / 3](static_cast<std::size_t>(r % 3), static_cast<std::size_t>(c % 3)) += e.value;
   }
   // With a from the mass centre to the point, δr_C = δp + a × δθ and M_p = M_C − a × F.
-  const Matrix3 a = skew(at - points_.centre(body));
+  const Matrix3 a = skew(at - open_.points.centre(body));
   const Matrix3 force_by_turn = part[0][0] * a + part[0][1];
   const Matrix3 moment_by_turn = part[1][0] * a + part[1][1] - a * force_by_turn;
   const auto largest = [](const Matrix3& m) {
@@ -172,7 +165,7 @@ OpenForces::AtPoint OpenForces::at_point(const std::vector<MatrixEntry>& entries
     }
     return size;
   };
-  const double arm = norm(at - points_.centre(body)), force = largest(part[0][0]);
+  const double arm = norm(at - open_.points.centre(body)), force = largest(part[0][0]);
   const double couplings = largest(part[0][1]) + largest(part[1][0]);
   return {transpose(axes) * part[0][0] * axes, transpose(axes) * moment_by_turn * axes, force,
           std::max({largest(part[1][1]), arm * couplings, arm * arm * force})};
@@ -186,7 +179,7 @@ void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<
     std::vector<std::pair<std::int32_t, double>> row;  // of D
     const auto take = [&](BodyId body, double sign) {
       const BodyBlock& block = system_.layout().body(body);
-      const Vector turn = k < 3 ? cross(place.I - points_.centre(body), axis) : axis;
+      const Vector turn = k < 3 ? cross(place.I - open_.points.centre(body), axis) : axis;
       for (std::int32_t i = 0; i < block.count; ++i) {
         const auto c = static_cast<std::size_t>(i % 3);
         const double v = i >= 3 ? turn[c] : k < 3 ? axis[c] : 0.0;
@@ -205,10 +198,10 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
   Place place;
   if (!find_place(label, place)) return;
   Bush bush;
-  bush.name = name_of(label, options_);
-  const std::int64_t id = options_.use_adams_ids ? label.id : 0;
-  bush.id = ids_.take(IdSpace::element, options_.cbush_offset + id);
-  bush.property = ids_.take(IdSpace::property, options_.pbush_offset + id);
+  bush.name = name_of(label, open_.options);
+  const std::int64_t id = open_.options.use_adams_ids ? label.id : 0;
+  bush.id = open_.ids.take(IdSpace::element, open_.options.cbush_offset + id);
+  bush.property = open_.ids.take(IdSpace::property, open_.options.pbush_offset + id);
   bush.grid_A = place.grid_J, bush.grid_B = place.grid_I, bush.system = place.system;
   bush.location = 1;
   const bool of_I = place.body_I != ground_body;
@@ -226,14 +219,14 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
     }
     subtract(place, kind, diagonal, entries);
   }
-  deck_.bushes.push_back(std::move(bush));
-  if (!options_.export_residuals) {
+  open_.deck.bushes.push_back(std::move(bush));
+  if (!open_.options.export_residuals) {
     if (!negative.empty()) {
       remarks.warning(
           "export-left-out", label.at,
           fmt::format("{} is negative along {} of its CBUSH, which has nothing there, and export_residuals = no "
                       "leaves it out of the deck",
-                      name_of(label, options_), negative));
+                      name_of(label, open_.options), negative));
     }
     entries.clear();
   }
@@ -250,9 +243,9 @@ void OpenForces::add_matrices(const std::string& name, const std::string& suffix
     m.kind = kind;
     m.suffix = suffix;
     for (const MatrixEntry& e : entries) {
-      if (e.kind == kind) m.entries.push_back({points_.dof(e.row), points_.dof(e.column), e.value});
+      if (e.kind == kind) m.entries.push_back({open_.points.dof(e.row), open_.points.dof(e.column), e.value});
     }
-    if (!m.entries.empty()) deck_.matrices.push_back(std::move(m));
+    if (!m.entries.empty()) open_.deck.matrices.push_back(std::move(m));
   }
 }
 
@@ -263,17 +256,17 @@ StudyResult<void> OpenForces::add(std::vector<Contribution> elements, std::vecto
   for (Contribution& c : elements) {
     if (c.of == Contribution::Of::rigid_body) continue;  // at rest it is its mass and no more
     std::vector<MatrixEntry> own;
-    for (const MatrixEntry& e : c.entries) (points_.is_coordinate(e.column) ? own : of_states).push_back(e);
+    for (const MatrixEntry& e : c.entries) (open_.points.is_coordinate(e.column) ? own : of_states).push_back(e);
     const auto singled_out = suffix_.find(c.element);
     if (singled_out == suffix_.end()) {
       in_common.insert(in_common.end(), own.begin(), own.end());
       continue;
     }
-    if (options_.export_cbush && c.of == Contribution::Of::force) add_bush(*c.element, own, remarks);
-    add_matrices(name_of(*c.element, options_), singled_out->second, std::move(own));
+    if (open_.options.export_cbush && c.of == Contribution::Of::force) add_bush(*c.element, own, remarks);
+    add_matrices(name_of(*c.element, open_.options), singled_out->second, std::move(own));
   }
-  add_matrices("forces", options_.forces_dmig_name, std::move(in_common));
-  add_matrices("differential states", options_.differentials_dmig_name, std::move(of_states));
+  add_matrices("forces", open_.options.forces_dmig_name, std::move(in_common));
+  add_matrices("differential states", open_.options.differentials_dmig_name, std::move(of_states));
   return {};
 }
 

@@ -60,12 +60,7 @@ class OpenForces {
 
   const System& system_;
   const Motion& motion_;
-  const ExportOptions& options_;
-  Ids& ids_;
-  Deck& deck_;
-  OpenPoints& points_;
-  MarkerGrids& markers_;
-  const SingleWrenches& wrenches_;
+  const OpenDeck open_;
   std::map<const ElementLabel*, std::string> suffix_;  // of what is singled out
   std::set<std::string> taken_;
 };
