@@ -196,6 +196,7 @@ bool EquilibriumSearch::is_grossly_unbalanced() {
   constexpr double gross = 1e-3, far_above_rounding = 1e6;
   const double imbalance = equations_.imbalance();
   if (!(imbalance > gross * equations_.force_scale()) || equations_.excess() < far_above_rounding) return false;
+  if (equations_.is_moved_by_rounding_alone()) return false;
   equations_.evaluate(drawn_, true);
   const bool is_gross = imbalance > gross * equations_.imbalance();
   equations_.evaluate(op_, true);

@@ -21,17 +21,6 @@ constexpr double dependent = 1e-9;        // of motions of unit size
 constexpr double free_state_hold = 1e-3;  // in comparable units: each step leaves as much of what it should take away
 constexpr double settled = 1e-9;  // of the size of an unknown: steps that become no smaller are rounding from here on
 
-// An orthonormal basis of motions in units of coordinates.
-Matrix basis_of(const Matrix& motions, const Eigen::VectorXd& size) {
-  Matrix unit = size.cwiseInverse().asDiagonal() * motions;
-  for (Eigen::Index k = 0; k < unit.cols(); ++k) {
-    if (const double norm = unit.col(k).norm(); norm > 0) unit.col(k) /= norm;
-  }
-  Eigen::ColPivHouseholderQR<Matrix> qr(unit);
-  qr.setThreshold(dependent);
-  return qr.householderQ() * Matrix::Identity(unit.rows(), qr.rank());
-}
-
 // ⎡ J   B ⎤ ⎡ δ ⎤   ⎡ −r ⎤     B, the basis in units of coordinates: δ has no share of what is kept, and forces p along
 // ⎣ Bᵀ  0 ⎦ ⎣ p ⎦ = ⎣  0 ⎦     it may remain. Regular where J alone is singular along these motions.
 std::optional<Eigen::VectorXd> step_across(StaticEquations& equations, const Matrix& B, double hold_states) {
@@ -61,13 +50,24 @@ std::optional<Eigen::VectorXd> step_across(StaticEquations& equations, const Mat
 
 }  // namespace
 
+Matrix basis_of_motions(const Matrix& motions, const Eigen::VectorXd& size, double dependent) {
+  if (motions.size() == 0) return Matrix(motions.rows(), 0);
+  Matrix unit = size.cwiseInverse().asDiagonal() * motions;
+  for (Eigen::Index k = 0; k < unit.cols(); ++k) {
+    if (const double norm = unit.col(k).norm(); norm > 0) unit.col(k) /= norm;
+  }
+  Eigen::ColPivHouseholderQR<Matrix> qr(unit);
+  qr.setThreshold(dependent);
+  return size.asDiagonal() * (qr.householderQ() * Matrix::Identity(unit.rows(), qr.rank()));
+}
+
 std::optional<OperatingPoint> rest_beside(const System& system, OperatingPoint op, const Matrix& kept) {
   StaticEquations equations(system);
   const AugmentedSystem& augmented = equations.augmented();
   const std::int32_t n = system.layout().coordinate_count;
   Eigen::VectorXd size(n);
   for (std::int32_t k = 0; k < n; ++k) size(k) = system.coordinate_scale(k);
-  const Matrix B = size.cwiseInverse().asDiagonal() * basis_of(kept, size);
+  const Matrix B = size.cwiseAbs2().cwiseInverse().asDiagonal() * basis_of_motions(kept, size, dependent);
   double hold_states = 0, before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
     settle(equations, op);

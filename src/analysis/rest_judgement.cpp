@@ -6,6 +6,7 @@
 
 #include "analysis/balance.h"
 #include "analysis/comparable_scales.h"
+#include "analysis/values_in_order.h"
 
 namespace dynalin {
 
@@ -81,46 +82,21 @@ class ScaledTangent {
 // A value of an expression has the size that it takes where what it depends on changes by its own; one that reads
 // others follows them, and those that read each other in a circle begin somewhere.
 void add_sizes_of_values(const AugmentedSystem& augmented, const ColumnMatrix& tangent, Eigen::VectorXd& size) {
-  struct Reading {
-    std::int32_t value;
-    double slope;
-  };
   const std::int32_t first = augmented.algebraic(0), end = augmented.state(0);
-  const auto at = [&](std::int32_t k) { return static_cast<std::size_t>(k - first); };
   const auto is_value = [&](std::int32_t k) { return k >= first && k < end; };
-  std::vector<std::vector<Reading>> readers(at(end));  // of each value
-  std::vector<int> open(at(end), 0);                   // values that it reads and whose size is not known
+  ValuesInOrder values(end - first);
   const Eigen::VectorXd own = size;
   for_each_entry(tangent, [&](std::int32_t r, std::int32_t c, double v) {
     if (!is_value(r) || r == c || v == 0 || (c >= augmented.lambda(0) && c < first)) return;
     if (is_value(c)) {
-      readers[at(c)].push_back({r, std::abs(v)});
-      ++open[at(r)];
+      values.reads(r - first, c - first, v);
     } else {
       size(r) = std::max(size(r), std::abs(v) * own(c));
     }
   });
-  std::vector<std::int32_t> known;
-  std::vector<bool> seen(at(end), false);
-  const auto see = [&](std::int32_t k) {
-    if (!seen[at(k)]) known.push_back(k), seen[at(k)] = true;
-  };
-  const auto pass_on = [&] {
-    while (!known.empty()) {
-      const std::int32_t from = known.back();
-      known.pop_back();
-      for (const Reading& to : readers[at(from)]) {
-        if (seen[at(to.value)]) continue;
-        size(to.value) = std::max(size(to.value), to.slope * size(from));
-        if (--open[at(to.value)] == 0) see(to.value);
-      }
-    }
-  };
-  for (std::int32_t k = first; k < end; ++k) {
-    if (open[at(k)] == 0) see(k);
-  }
-  pass_on();
-  for (std::int32_t k = first; k < end; ++k) see(k), pass_on();
+  values.for_each_reading([&](std::int32_t reader, std::int32_t read, double slope) {
+    size(first + reader) = std::max(size(first + reader), std::abs(slope) * size(first + read));
+  });
 }
 
 // Lengths, radians, states by their value, at least one.

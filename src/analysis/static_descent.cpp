@@ -22,6 +22,7 @@ constexpr int patience_with_steps = 40;
 // force that certainly acted.
 constexpr double residual_noise = 100, little_excess = 1e4, certain_excess = 1e5;
 constexpr double settled_move = 1e-6;  // of the size of an unknown
+constexpr double last_digits = 1e-12;  // the same
 constexpr double nearer = 0.8;         // of the least merit or step so far: progress
 constexpr double stalled = 0.25;  // of the imbalance before: Newton's method, but for what it does not see, does better
 // Of the forces at play, from far to near: where Newton's steps are tried after others alone, what may be left to a
@@ -64,10 +65,15 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     history_.add(std::isfinite(merit_) ? equations_.imbalance_of_functions() : infinite, equations_.rate_of_states());
     if (!std::isfinite(merit_)) return false;
     if (iteration_ == 0) first_force_ = force_;
-    if (iteration_ == 0 && !loose && balanced_to_rounding(equations_)) {
-      // A load no larger than what rounding may do to stiff elements moves soft ones all the same.
-      const auto j = judge(equations_, op);
-      if (!j || (j->determined && equations_.excess() <= 1)) return true;
+    bool all_is_rounding = false;
+    if (iteration_ == 0 && !loose) {
+      const bool balanced = balanced_to_rounding(equations_);
+      if (balanced || equations_.is_moved_by_rounding_alone()) {
+        const auto j = judge(equations_, op);
+        // A load no larger than what rounding may do to stiff elements moves soft ones all the same.
+        if (balanced && (!j || (j->determined && equations_.excess() <= 1))) return true;
+        all_is_rounding = j && j->determined && j->largest <= last_digits;
+      }
     }
     if (escaped(system_, first_, op)) return false;
     note_arrivals();
@@ -87,7 +93,7 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     const int patience = inputs_lead_ ? descent_patience / 8 : spent ? descent_patience / 4 : descent_patience;
     if (iteration_ > improved_ + patience) return false;
     const double level = std::sqrt(merit_);
-    if (level <= force_balance || equations_.excess() <= little_excess) {
+    if (level <= force_balance || equations_.excess() <= little_excess || all_is_rounding) {
       if (finish(op)) return true;
       if (iteration_ > converging_ + patience_with_steps) return false;
       stalled_ = level >= stalled * before_ || level == 0 ? stalled_ + 1 : 0;
@@ -142,7 +148,7 @@ bool Descent::finish(OperatingPoint& op) {
     // What Newton's method cannot improve any more, neither step nor balance, is determined as well as it can be.
     // So is what it would not change but in the last digits, where nothing better was found: one more step may lead
     // where forces have no direction.
-    constexpr double epsilon = std::numeric_limits<double>::epsilon(), last_digits = 1e-12;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const bool exact = (j->largest <= last_digits && stuck >= 3) || (j->largest <= epsilon && unbalanced >= 2) ||
                        (!rest && j->largest_of_all <= epsilon);
     const bool at_rest = (j->balanced || exact) && (j->determined || (j->excused && stuck >= 2));

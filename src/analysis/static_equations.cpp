@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/comparable_scales.h"
+#include "analysis/values_in_order.h"
 
 namespace dynalin {
 
@@ -76,6 +77,12 @@ double StaticEquations::imbalance() const {
   double worst = 0;
   for (std::int32_t k = 0; k < coordinates_; ++k) worst = std::max(worst, std::abs(residual_(k)) * force_unit(k));
   return worst;
+}
+
+bool StaticEquations::is_moved_by_rounding_alone() const {
+  double most = 0;
+  for (std::int32_t k = 0; k < coordinates_; ++k) most = std::max(most, rounding_(k) * force_unit(k));
+  return imbalance() <= most;
 }
 
 double StaticEquations::imbalance_of_functions() const {
@@ -190,10 +197,11 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
   sizes(op.algebraic, augmented_.algebraic(0));
   sizes(op.state, augmented_.state(0));
   rounding_of_terms_ = magnitude_;
-  Eigen::VectorXd by_place = Eigen::VectorXd::Zero(augmented_.size());
+  Eigen::VectorXd by_place = Eigen::VectorXd::Zero(augmented_.size()), terms = by_place;
   const auto take = [&](PartialBy family, std::int32_t offset, Eigen::VectorXd& sum) {
     for_each_entry(eq_.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
       sum(augmented_.equation(r)) += std::abs(v) * size(offset + c);
+      terms(augmented_.equation(r)) += 1;
     });
   };
   take(PartialBy::position, 0, by_place);
@@ -219,10 +227,30 @@ void StaticEquations::measure_rounding(const OperatingPoint& op) {
       rounding_of_terms_(e.column) += std::abs(e.c.g) * size(augmented_.lambda(k));
     }
   }
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  rounding_of_terms_ *= epsilon;
+  // Each partial sum of many terms is rounded; of a few, that is less than what estimates allow for.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon(), few = 50;
+  rounding_of_terms_ = epsilon * rounding_of_terms_.cwiseProduct((terms / few).cwiseMax(1.0));
   rounding_ = rounding_of_terms_ + epsilon * by_place;
+  carry_rounding_of_values();
   rounding_of_unknowns_ = epsilon * size;
+}
+
+// A value is off by what its equation is; so is what reads it.
+void StaticEquations::carry_rounding_of_values() {
+  const auto count = static_cast<std::int32_t>(system_.layout().algebraic.size());
+  const ColumnMatrix& partials = eq_.matrix(PartialBy::algebraic);
+  const auto is_value = [&](std::int32_t r) { return r >= coordinates_ && r < coordinates_ + count; };
+  ValuesInOrder values(count);
+  for_each_entry(partials, [&](std::int32_t r, std::int32_t c, double v) {
+    if (is_value(r) && r - coordinates_ != c && v != 0) values.reads(r - coordinates_, c, v);
+  });
+  const std::int32_t first = augmented_.algebraic(0);
+  values.for_each_reading([&](std::int32_t reader, std::int32_t read, double slope) {
+    rounding_(first + reader) += std::abs(slope) * rounding_(first + read);
+  });
+  for_each_entry(partials, [&](std::int32_t r, std::int32_t c, double v) {
+    if (!is_value(r)) rounding_(augmented_.equation(r)) += std::abs(v) * rounding_(first + c);
+  });
 }
 
 void StaticEquations::measure_parts() {

@@ -30,7 +30,7 @@ class StaticEquations {
   // Sums of the sizes of all that is in an equation, without sign.
   const Eigen::VectorXd& magnitude() const { return magnitude_; }
   // How far off residuals may be because numbers are rounded, ε (Σ |terms| + Σ |J| |x|): stiff elements turn the
-  // rounding of positions into forces. Of the last evaluation with partials.
+  // rounding of positions into forces, through values of functions as well. Of the last evaluation with partials.
   const Eigen::VectorXd& rounding() const { return rounding_; }
   // The part of it that rounding of places and states does not make: what their rounding adds to residuals, in both
   // parts of an element alike, is undone by moving them as little.
@@ -42,7 +42,10 @@ class StaticEquations {
 
   // Largest unbalanced force, moments by length.
   double imbalance() const;
-  // The same once forces have the values of their functions, to first order; of the last evaluation with partials.
+  // Whether no force is out of balance by more than rounding makes of the one that it makes most of: reactions pass it
+  // on to parts that have none of their own. Of the last evaluation with partials.
+  bool is_moved_by_rounding_alone() const;
+  // The imbalance once forces have the values of their functions, to first order; of the last evaluation with partials.
   double imbalance_of_functions() const;
   // The fastest rate of a state, but for rounding; of the last evaluation with partials.
   double rate_of_states() const;
@@ -103,6 +106,7 @@ class StaticEquations {
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);
   void measure_rounding(const OperatingPoint&);
+  void carry_rounding_of_values();
   void measure_parts();
 
   bool undefined_ = false, motion_ = false;

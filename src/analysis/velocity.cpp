@@ -149,6 +149,15 @@ void keep_as_stated(const std::vector<VelocityCondition>& conditions, std::size_
     velocity = std::move(kept);
 }
 
+// In what unit a condition counts beside others: turns by the length, or the unit of length would decide which of them
+// gives way.
+double unit_of(const System& system, const VelocityCondition& c) {
+  double size = 0;
+  for (std::size_t i = 0; i < c.column.size(); ++i)
+    size = std::max(size, std::abs(c.coefficient[i]) * system.coordinate_scale(c.column[i]));
+  return size > 0 ? system.length() / size : 0.0;
+}
+
 // The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
 // what these leave open changes least from `start`.
 Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const ConstraintRows& rows,
@@ -160,11 +169,11 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);
   for (std::size_t k = active.size(); k < conditions.size(); ++k) {
     const VelocityCondition& c = conditions[k];
-    const double off = miss(c, start).value;
+    const double off = miss(c, start).value, unit = unit_of(system, c), weight = unit * unit;
     for (std::size_t i = 0; i < c.column.size(); ++i) {
-      change(c.column[i], 0) -= c.coefficient[i] * off;
+      change(c.column[i], 0) -= weight * c.coefficient[i] * off;
       for (std::size_t j = 0; j < c.column.size(); ++j) {
-        entries.push_back({c.column[i], c.column[j], c.coefficient[i] * c.coefficient[j]});
+        entries.push_back({c.column[i], c.column[j], weight * c.coefficient[i] * c.coefficient[j]});
       }
     }
   }

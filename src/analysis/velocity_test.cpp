@@ -1,4 +1,5 @@
 // Velocities of the start: what is stated is kept, the rest changes least, contradictions are told.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "analysis/initial.h"
@@ -101,6 +102,23 @@ TEST(Velocity, stated_values_that_contradict_a_constraint_give_way_alike_and_are
   EXPECT_THAT(s.findings.warnings.items()[0].message, HasSubstr("VX of POINT_MASS/2 = 1 "));
   EXPECT_THAT(s.findings.warnings.items()[0].message, HasSubstr("changed to 0.25"));
   EXPECT_THAT(s.findings.warnings.items()[1].message, HasSubstr("VY of POINT_MASS/2"));
+}
+
+// At d from its hinge a mass centre is stated to move by v and not to turn: least (d ω − v)² + L² ω², in any unit.
+TEST(Velocity, stated_turns_give_way_by_the_length) {
+  for (const double unit : {1.0, 1000.0, 0.01}) {
+    const double d = 2 * unit, v = 3 * unit;
+    const Start s(
+        fmt::format("PART/2, MASS=1, CM=20, IP=1,1,1, QG={0},0,0, VY={1}, WZ=0\nMARKER/20\n"
+                    "MARKER/21, QP=-{0},0,0\nJOINT/1, REVOLUTE, I=21, J=1\n",
+                    d, v));
+    const double L = s.system->length(), w = d * v / (d * d + L * L);
+    EXPECT_NEAR(L, 2 * unit, 1e-12 * unit);
+    ASSERT_TRUE(s.op);
+    EXPECT_NEAR(s.velocity(5), w, 1e-9);
+    EXPECT_NEAR(s.velocity(1), d * w, 1e-9 * unit);
+    EXPECT_EQ(s.findings.warnings.items().size(), 2u);
+  }
 }
 
 TEST(Velocity, constraints_that_contradict_each_other_fail_by_name) {

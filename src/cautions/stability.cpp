@@ -134,27 +134,27 @@ bool stays_on_axis(const std::vector<Value>& values, std::size_t which) {
   return true;
 }
 
-// How all coordinates move along what the linear model leaves free, its zeros and modes that are hardly more, each
-// motion by as much as it is large.
+// How all coordinates move along what the linear model leaves free, its zeros and modes that are hardly more: motions
+// of which none is made of the others, each of unit size in its largest coordinate.
 Matrix free_motions(const System& system, const LinearSystem& linear, const ZeroModes& zeros,
                     const Eigen::MatrixXcd& slow) {
   constexpr double moves_nothing = 1e-8;  // of a vector of unit length, what is computed of displacements
+  constexpr double same_motion = 1e-4;    // what is left of one beside others says how far both are known
   const Matrix of_zeros = linear.displacements(zeros.vectors().cast<std::complex<double>>()).real();
   const Eigen::MatrixXcd of_slow = linear.displacements(slow);
   Matrix motions(of_zeros.rows(), of_zeros.cols() + 2 * of_slow.cols());
   motions.leftCols(of_zeros.cols()) = of_zeros;
   motions.middleCols(of_zeros.cols(), of_slow.cols()) = of_slow.real();
   motions.rightCols(of_slow.cols()) = of_slow.imag();
+  Eigen::VectorXd unit(motions.rows());
+  for (Eigen::Index c = 0; c < unit.size(); ++c) unit(c) = system.coordinate_scale(static_cast<std::int32_t>(c));
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
-    double size = 0;
-    for (Eigen::Index c = 0; c < motions.rows(); ++c)
-      size = std::max(size, std::abs(motions(c, k)) / system.coordinate_scale(static_cast<std::int32_t>(c)));
-    if (size > (k < of_zeros.cols() ? 0.0 : moves_nothing)) {
-      motions.col(k) /= size;
-    } else {
-      motions.col(k).setZero();
-    }
+    const double size = motions.col(k).cwiseQuotient(unit).lpNorm<Eigen::Infinity>();
+    if (!(size > (k < of_zeros.cols() ? 0.0 : moves_nothing))) motions.col(k).setZero();
   }
+  motions = basis_of_motions(motions, unit, same_motion);
+  for (Eigen::Index k = 0; k < motions.cols(); ++k)
+    motions.col(k) /= motions.col(k).cwiseQuotient(unit).lpNorm<Eigen::Infinity>();
   return motions;
 }
 
@@ -182,18 +182,23 @@ std::string largest_of(const System& system, const Eigen::VectorXd& motion) {
 // BCS: everything but the motions is brought to rest again.
 bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, const Matrix& motions, Eigen::Index zeros,
                         std::size_t slow, double limit) {
-  constexpr double distance = 1e-3;
   constexpr double as_slow = 10;  // times the limit, or what is a little faster there would be taken for held
-  OperatingPoint there = at_rest;
-  displace(system, there, distance * together(motions), {1.0});
-  Findings ignored;
-  if (auto rest = rest_beside(system, there, motions)) there = std::move(*rest);
-  auto moved = assemble_position(system, std::move(there), ignored);
-  if (moved) moved = solve_acceleration(system, std::move(*moved), ignored);
+  const auto displaced = [&](double distance) {
+    OperatingPoint there = at_rest;
+    displace(system, there, distance * together(motions), {1.0});
+    Findings ignored;
+    if (auto rest = rest_beside(system, there, motions)) there = std::move(*rest);
+    auto moved = assemble_position(system, std::move(there), ignored);
+    return moved ? solve_acceleration(system, std::move(*moved), ignored) : moved;
+  };
+  // Where rounding hides all that is done about it, accelerations have lost it already: a higher order grows faster.
+  Result<OperatingPoint> moved;
+  for (const double distance : {1e-3, 1e-2, 1e-1}) {
+    moved = displaced(distance);
+    if (!moved || std::ranges::any_of(moved->acceleration, [](double a) { return a != 0; })) break;
+  }
   if (!moved) return true;
-  // Nothing does anything about it there, but for the rounding that accelerations have lost already.
-  if (std::all_of(moved->acceleration.begin(), moved->acceleration.end(), [](double a) { return a == 0; }))
-    return false;
+  if (std::ranges::all_of(moved->acceleration, [](double a) { return a == 0; })) return false;
   std::string unused;
   const auto beside = linear_at(system, *moved, unused);
   if (!beside) return true;
@@ -241,8 +246,7 @@ Stability stability_of(const System& system, const OperatingPoint& at_rest) {
   for (std::size_t k = 0; k < slow.size(); ++k)
     slow_vectors.col(static_cast<Eigen::Index>(k)) = spectrum->vectors.col(static_cast<Eigen::Index>(slow[k]));
   const Matrix motions = free_motions(system, *linear, zeros, slow_vectors);
-  if (motions.size() > 0 && motions.cwiseAbs().maxCoeff() > 0 &&
-      is_free_here_alone(system, at_rest, motions, zeros.count, slow.size(), limit)) {
+  if (motions.size() > 0 && is_free_here_alone(system, at_rest, motions, zeros.count, slow.size(), limit)) {
     s.reason =
         fmt::format("to first order nothing holds {} here, and beside this point something does or drives it away",
                     largest_of(system, together(motions)));

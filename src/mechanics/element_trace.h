@@ -20,7 +20,7 @@ struct ElementTrace {
   };
   struct Load {  // on a row of the force balance
     std::int32_t row;
-    double value;
+    double value, size;  // what it has been added up from, which may have cancelled
   };
   // One force, joint or body; entries up to those of the next one are its own.
   struct Element {

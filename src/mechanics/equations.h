@@ -213,7 +213,7 @@ class Equations {
   // `size` is what the value has been added up from.
   void add_residual(std::int32_t row, double value, double size) {
     if (keeps_) return kept_.residuals.push_back({row, value, size});
-    if (trace_ && row < layout_->coordinate_count) trace_->loads.push_back({row, value});
+    if (trace_ && row < layout_->coordinate_count) trace_->loads.push_back({row, value, size});
     residual_[static_cast<std::size_t>(row)] += value;
     magnitude_[static_cast<std::size_t>(row)] += size;
   }

@@ -30,6 +30,7 @@ struct CarriedForces::OnBody {
   Vector6 load;                                     // force and moment by length
   Matrix reactions;                                 // 6 × multipliers that are its own
   Vector6 sums;                                     // of the sizes of what makes up the change
+  double made_of = 0;                               // the most that a component of the load has been added up from
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  // of the BCS
   bool turns = true;
   double size = 0;
@@ -88,10 +89,11 @@ void CarriedForces::add(const Directions& d, std::vector<Eigen::RowVectorXd>& ro
       on.sums(k) += factor * size;
     }
     for (const auto& [row, load] : e.load) {
-      if (load == 0.0 || body_of_[static_cast<std::size_t>(row)] < 0) continue;
+      if (load.size == 0.0 || body_of_[static_cast<std::size_t>(row)] < 0) continue;
       OnBody& on = place(row);
       const auto [k, factor] = spot(row);
-      on.load(k) += factor * load;
+      on.load(k) += factor * load.value;
+      on.made_of = std::max(on.made_of, factor * load.size);
     }
     for (std::size_t r = 0; r < e.reactions.size(); ++r) {
       for (const auto& entry : rows_.row(e.reactions[r])) {
@@ -104,7 +106,7 @@ void CarriedForces::add(const Directions& d, std::vector<Eigen::RowVectorXd>& ro
     }
     for (auto& [b, on] : touched) {
       group[static_cast<std::size_t>(root(b))] = root(touched.begin()->first);
-      on.size = std::max(on.sums.maxCoeff(), on.load.cwiseAbs().maxCoeff());
+      on.size = std::max(on.sums.maxCoeff(), on.made_of);
       if (on.size > 0) bodies[b].push_back(std::move(on));
     }
     // A coordinate outside bodies belongs to one element, whose reactions balance there.

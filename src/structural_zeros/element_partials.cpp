@@ -30,7 +30,9 @@ ElementPartials::ElementPartials(const System& system, const ElementTrace& trace
       }
     }
     for (std::size_t k = noted.first_load; k < trace.end_of_loads(e); ++k) {
-      element->load[trace.loads[k].row] += trace.loads[k].value;
+      auto& [load, size] = element->load[trace.loads[k].row];
+      load += trace.loads[k].value;
+      size += trace.loads[k].size;
     }
   }
 }

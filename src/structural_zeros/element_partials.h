@@ -17,8 +17,11 @@ struct ElementPartial {
   double value;
 };
 struct ElementContribution {
+  struct Load {
+    double value = 0, size = 0;  // what it is, and what it has been added up from
+  };
   std::vector<ElementPartial> partials;
-  std::map<std::int32_t, double> load;  // by row of the balance
+  std::map<std::int32_t, Load> load;    // by row of the balance
   std::vector<std::int32_t> reactions;  // its constraint rows
 };
 struct Reading {  // one quantity in an algebraic or differential equation

@@ -86,6 +86,12 @@ void System::find_angles(const std::vector<AngleName>& counted_before) {
 
 void System::scale_coordinates() {
   length_ = model_->characteristic_length();
+  // Markers that stand at one place of a curve but for rounding are no scale of what moves along it.
+  constexpr double coincide = 1e-9;
+  for (const CurvePoint& p : layout_.curve_points) {
+    const double size = p.curve->least_speed() * p.curve->range();
+    if (length_ <= coincide * size) length_ = size;
+  }
   scale_.assign(coordinates(), 1.0);
   std::vector<const BodyBlock*> blocks;
   for (const BodyBlock& b : layout_.bodies) {

@@ -14,6 +14,19 @@ TEST_F(CurveCases, bead_on_a_parabola) {
   EXPECT_NEAR(frequency(fmt::format(fmt::runtime(text), "0.4,0.9,-0.2", ""), "SIMULATE/STATIC\n"), expected, 1e-7);
 }
 
+// All markers stand at one place but for rounding: the curve says how large the model is.
+TEST_F(CurveCases, bead_beside_the_bottom_by_rounding_moves_in_time) {
+  for (const char* off : {"0", "1E-17", "1E-15", "-1E-12", "1E-10", "1E-8"}) {
+    const RunResult r = run(
+        fmt::format("Curves\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nMARKER/9, FLOATING\n{}"
+                    "POINT_MASS/2, MASS=3, CM=2, QG={},0,0\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\nEND\n",
+                    parabola(1, 1.7), off),
+        "SIMULATE/DYNAMICS, END=1, STEPS=5\nLINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << off << r.err;
+    expect_eigenvalues(r.eigenvalues(1), {{0, std::sqrt(2 * 1.7 * 9.81) / (2 * std::numbers::pi)}}, 1e-6);
+  }
+}
+
 TEST_F(CurveCases, bead_on_a_parabola_that_turns) {
   // Seen from the turning wire ω² = 2 a g − W², and with W² > 2 a g it runs away.
   for (const double W : {3.0, 7.0}) {

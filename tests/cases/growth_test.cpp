@@ -76,7 +76,7 @@ TEST_F(Growth, a_long_chain_of_markers_in_frames_of_others_is_placed_quickly) {
 
 // Values follow the coordinates where a saddle is looked for, however many there are.
 TEST_F(Growth, statics_of_a_force_that_sums_very_many_values_are_quick) {
-  constexpr int count = 4000;
+  constexpr int count = 8000;
   std::string law = "4", values;
   for (int k = 1; k <= count; ++k) {
     values += "VARIABLE/" + std::to_string(k) + ", FUNCTION=-1.0E-3*DZ(3,1)\n";
