@@ -35,6 +35,12 @@ class Descent {
   const std::string& doubt() const { return doubt_; }
 
  private:
+  // Residuals in units of rounding: those that say nothing, those that Newton's steps alone may settle, and those of a
+  // force that certainly acted.
+  static constexpr double residual_noise = 100, little_excess = 1e4, certain_excess = 1e5;
+  static constexpr double settled_move = 1e-6;  // of the size of an unknown
+  static constexpr double nearer = 0.8;         // of the least merit or step so far: progress
+
   std::optional<Eigen::VectorXd> solve(double hold);
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);
