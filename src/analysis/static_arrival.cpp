@@ -22,7 +22,7 @@ bool Descent::finish(OperatingPoint& op) {
   std::optional<OperatingPoint> rest, faded, freed;
   for (int k = 0; k < steps; ++k) {
     settle(equations_, here);
-    equations_.evaluate(here, true);
+    equations_.evaluate(here, Partials::yes);
     const auto j = judge(equations_, here);
     if (!j) break;
     if (k == 0) {
@@ -65,7 +65,7 @@ bool Descent::finish(OperatingPoint& op) {
     settle(equations_, op);
     return true;
   }
-  equations_.evaluate(op, true);
+  equations_.evaluate(op, Partials::yes);
   return false;
 }
 
@@ -146,7 +146,7 @@ bool Descent::came_to_rest(const RestJudgement& j) {
 // where it was.
 bool Descent::rests_put_back(OperatingPoint& op) {
   if (!loose_ || !may_put_back_) return false;
-  equations_.evaluate(op, true);
+  equations_.evaluate(op, Partials::yes);
   const auto j = judge(equations_, op);
   auto back = j ? put_back(equations_, op, loose_->at) : std::nullopt;
   if (!back) return false;
@@ -166,7 +166,7 @@ bool Descent::polish(OperatingPoint& op, const FirstFreedoms& loose) {
 
 bool Descent::finish_at(OperatingPoint& op, const FirstFreedoms& loose) {
   loose_ = &loose;
-  equations_.evaluate(op, true);
+  equations_.evaluate(op, Partials::yes);
   if (!equations_.residual().allFinite()) return false;
   first_ = lowest_ = op;
   note_arrivals();

@@ -52,7 +52,7 @@ bool Descent::run(OperatingPoint& op, const FirstFreedoms* loose) {
     // A motion that comes closer to rest goes on even in a model so large that the effort is soon spent.
     const bool spent = equations_.effort() > options_.effort_limit;
     if (spent && loose) return false;
-    equations_.evaluate(op, true);
+    equations_.evaluate(op, Partials::yes);
     // One yardstick for the whole search, or a step could pass by growing what it is measured against.
     force_ = std::max(force_, equations_.force_scale());
     merit_ = equations_.merit(force_);
@@ -170,7 +170,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
     // A matrix that is all but singular sends what nothing holds beyond everything.
     if (escaped(system_, first_, next)) break;
     if (level > no_slope) settle(equations_, next);
-    equations_.evaluate(next, false);
+    equations_.evaluate(next, Partials::no);
     constexpr double rounding_of_merit = 1e-24;
     const double after = equations_.merit(force_);
     if (after <= (level < force_balance ? 4 * merit_ + rounding_of_merit : merit_ * (1 - 0.5 * fraction))) {
@@ -182,7 +182,7 @@ bool Descent::newton(OperatingPoint& op, double level) {
       return true;
     }
   }
-  equations_.evaluate(op, true);
+  equations_.evaluate(op, Partials::yes);
   return false;
 }
 
@@ -197,7 +197,7 @@ bool Descent::implicit(OperatingPoint& op) {
       OperatingPoint next = moved(system_, op, equations_.augmented(), *step, 1.0, options_.limits, &taken);
       settle(equations_, next);
       const double foretold = -hold_ * equations_.damping(*step);
-      equations_.evaluate(next, false);
+      equations_.evaluate(next, Partials::no);
       const double off = std::abs(equations_.slope(*step) - foretold) / -slope;
       if (off <= 0.5 && equations_.residual().allFinite()) {
         hold_ *= off < 0.1 ? 0.25 : off < 0.25 ? 0.5 : 1.0;
@@ -208,7 +208,7 @@ bool Descent::implicit(OperatingPoint& op) {
       }
     }
     hold_ *= 4;
-    equations_.evaluate(op, true);
+    equations_.evaluate(op, Partials::yes);
   }
   return false;
 }

@@ -71,10 +71,10 @@ bool MotionEquations::holds(std::int32_t equation_row) const {
          system_.layout().states[static_cast<std::size_t>(equation_row - first)].held_in_dynamics;
 }
 
-void MotionEquations::evaluate(double t, std::span<const double> y, std::span<const double> yp, bool with_partials) {
+void MotionEquations::evaluate(double t, std::span<const double> y, std::span<const double> yp, Partials wanted) {
   unknowns_.unpack(t, y, yp, motion_);
   system_.constraints(motion_, rows_);
-  if (with_partials) {
+  if (wanted == Partials::yes) {
     system_.equations(motion_, rows_, eq_,
                       {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
                        PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
@@ -85,7 +85,7 @@ void MotionEquations::evaluate(double t, std::span<const double> y, std::span<co
 }
 
 bool MotionEquations::residual(double t, std::span<const double> y, std::span<const double> yp, std::span<double> r) {
-  evaluate(t, y, yp, false);
+  evaluate(t, y, yp, Partials::no);
   kinematic_residual(y, yp, r);
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -309,7 +309,7 @@ void MotionEquations::balance_partials(double c, std::span<const double>) {
 
 const ColumnMatrix* MotionEquations::jacobian(double t, double c, std::span<const double> y,
                                               std::span<const double> yp) {
-  evaluate(t, y, yp, true);
+  evaluate(t, y, yp, Partials::yes);
   make_charts(y);
   const auto pass = [&] {
     jacobian_.begin();
