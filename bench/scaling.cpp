@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   fmt::print("  constraint rows   {:8.3f} s\n", clock.lap());
   system.equations(motion, rows, eq, all);
   fmt::print("  all partials      {:8.3f} s\n", clock.lap());
-  const Partition p = system.partition(rows, false);
+  const Partition p = system.partition(rows, RowLevel::position);
   fmt::print("  elimination       {:8.3f} s   {} rows, {} redundant, {} freedoms\n", clock.lap(), rows.size(),
              p.redundant.size(), p.independent.size());
   const auto candidates = state_candidates(system, motion, {});

@@ -23,6 +23,7 @@ using library::export_nastran;
 using library::LinearModel;
 using library::Model;
 using library::Modes;
+using library::ModeShapes;
 using library::nastran_deck;
 using library::NastranBox;
 using library::NastranDeck;

@@ -17,6 +17,9 @@ struct Modes : EigenSolution {
   std::vector<Remark> remarks;  // what makes them other than they look
 };
 
+// Eigenvalues alone take a fraction of the time.
+enum class ModeShapes : bool { left_out, wanted };
+
 // Constant. Results are computed when they are asked for; whatever needs the state matrix forms it, once.
 class LinearModel {
  public:
@@ -30,12 +33,12 @@ class LinearModel {
   // them, in the order of the dataset.
   PhysicalMatrices physical_matrices() const;
   std::vector<ElementMatrices> element_matrices() const;
-  // Eigenvalues and mode shapes, or eigenvalues alone. A model without states has none, and throws.
-  Modes modes(bool with_shapes = true) const;
+  // All of them. A model without states has none, and throws.
+  Modes modes(ModeShapes = ModeShapes::wanted) const;
   // Some of them, with the same values and vectors; where the model is large bounds are those of the sparse equations,
   // which may be wider. `selected` says whether they are all that was asked for. Large models are solved for these
   // alone: time and memory grow with the model, not with the cube and square of it.
-  Modes modes(const ModeSelection&, bool with_shapes = true) const;
+  Modes modes(const ModeSelection&, ModeShapes = ModeShapes::wanted) const;
   // What moves in them, and where the energy is; `modes` are those of this model. ENERGY_PER_MODE needs all of them.
   // Throws if they are not, or have no shapes, and where the request names a table or a marker that does not exist.
   ModalTables tables(const EigenSolution& modes, const ModalTableRequest&) const;

@@ -12,7 +12,7 @@ namespace {
 // Of an unknown: the next correction would be as small a part of this one.
 constexpr double small_correction = 1e-9;
 // Of the largest that the sample makes of any value: what no other sample would come near.
-constexpr double far = 100;
+constexpr double times_the_sample = 100;
 
 // Corrects values that are already exact to rounding. What all but vanishes was rounding alone and is zero.
 void correct(std::vector<double>& values, std::int32_t offset, const Eigen::MatrixXd& step) {
@@ -85,7 +85,7 @@ const Eigen::VectorXd& AccelerationCorrections::rounding() {
 bool AccelerationCorrections::far_above_rounding(const std::vector<double>& values, std::int32_t offset) const {
   const auto sample = beside_.segment(offset, static_cast<Eigen::Index>(values.size()));
   if (!sample.allFinite()) return false;
-  const double least = values.empty() ? 0 : far * rounding_of_answer() * sample.cwiseAbs().maxCoeff();
+  const double least = values.empty() ? 0 : times_the_sample * rounding_of_answer() * sample.cwiseAbs().maxCoeff();
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == 0 || std::abs(v) > least; });
 }
 

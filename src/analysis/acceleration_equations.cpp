@@ -20,7 +20,7 @@ AccelerationEquations::AccelerationEquations(const System& system, const Operati
     : system_(system),
       augmented_(system),
       rows_(rows_at(system, op)),
-      partition_(system.partition(rows_, true)),
+      partition_(system.partition(rows_, RowLevel::velocity)),
       massless_(system, op, partition_.active) {
   equations_.resize(system.layout());
   if (massless_.any()) equations_.keep_sizes();

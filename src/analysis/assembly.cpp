@@ -29,11 +29,11 @@ constexpr double most_told = 1.5;                 // of two bodies against each 
 
 // Axes that should be perpendicular and are parallel: no turn changes their product to first order.
 std::string_view stuck_axes(const System& system, const ConstraintRows& rows, std::int32_t k) {
-  constexpr double parallel = 1e-3;
+  constexpr double cosine_left = 1e-3;
   if (static_cast<std::size_t>(k) >= system.layout().rows.size()) return {};
   if (!system.layout().rows[static_cast<std::size_t>(k)].perpendicular) return {};
   for (const auto& e : rows.row(k)) {
-    if (std::abs(e.c.g) > parallel) return {};
+    if (std::abs(e.c.g) > cosine_left) return {};
   }
   return ", whose axes are parallel and must be perpendicular,";
 }
@@ -140,7 +140,7 @@ class Assembly {
       }
       if (const auto reason = undefined_row(system_, system_.motion(op_), rows_))
         return failure(*reason, "undefined-value");
-      const Partition part = system_.partition(rows_, false);
+      const Partition part = system_.partition(rows_, RowLevel::position);
       const Remainder left = remainder(part);
       if (left.is_rounding(before_)) {
         if (!left.contradicted.empty()) return contradicting(part, left);

@@ -13,10 +13,10 @@ constexpr double exact_weight = 1e8;  // of coordinates that EXACT asks to keep
 // The turns, of unit size, that change one of the angles ψ, θ and φ alone of Rz(ψ) Rx(θ) Rz(φ) most for their size.
 // Where z is vertical ψ and φ are one angle.
 std::array<Vector, 3> turns_of_angles(const Matrix3& R) {
-  constexpr double vertical = 1e-6;
+  constexpr double least_sine_from_vertical = 1e-6;
   const Vector up{0, 0, 1}, nodes = cross(up, R.z);
   const double sine = norm(nodes);
-  if (sine <= vertical) return {up, R.x, up};
+  if (sine <= least_sine_from_vertical) return {up, R.x, up};
   const Vector line = nodes / sine, by_psi = cross(line, R.z), by_phi = cross(line, up);
   return {by_psi / norm(by_psi), line, by_phi / norm(by_phi)};
 }

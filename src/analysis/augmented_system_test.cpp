@@ -38,7 +38,7 @@ struct Instant {
     rows.resize(system->layout());
     eq.resize(system->layout());
     evaluate(op);
-    part = system->partition(rows, true);
+    part = system->partition(rows, RowLevel::velocity);
   }
   void evaluate(const OperatingPoint& at) {
     const Motion m = system->motion(at);
@@ -157,7 +157,7 @@ TEST(AugmentedSystem, unknowns_that_nothing_determines_are_named) {
     system->constraints(m, rows);
     system->equations(m, rows, eq,
                       {PartialBy::acceleration, PartialBy::lambda, PartialBy::algebraic, PartialBy::state_rate});
-    const Partition part = system->partition(rows, true);
+    const Partition part = system->partition(rows, RowLevel::velocity);
     return undetermined(*system, augmented, augmented.matrix(eq, rows, part.active, {}));
   };
   const std::string held = "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\n";

@@ -36,7 +36,7 @@ class Relaxation {
     double lowest = std::numeric_limits<double>::infinity(), force = 0;
     for (int k = 0; k < most_steps && k <= improved + motion_patience; ++k) {
       if (equations_.effort() > effort_limit) return false;
-      equations_.evaluate(op, true);
+      equations_.evaluate(op, Partials::yes);
       force = std::max(force, equations_.force_scale());
       const double level = std::sqrt(equations_.merit(force));
       history.add(equations_.imbalance_of_functions(), equations_.rate_of_states());
@@ -51,7 +51,7 @@ class Relaxation {
           op = std::move(here);
           return true;
         }
-        equations_.evaluate(op, true);
+        equations_.evaluate(op, Partials::yes);
       }
       if (time_ > options_.longest_time || !step(op)) return false;
     }
@@ -124,7 +124,7 @@ class Relaxation {
         const Eigen::VectorXd a = (u - velocity_) / step_;
         const double foretold = before + taken * (motion - before);
         const double energy = 0.5 * u.dot(equations_.inertia(u).head(coordinates_));
-        equations_.evaluate(next, false);
+        equations_.evaluate(next, Partials::no);
         const double after = equations_.slope(*d);
         const double off = std::abs(after - foretold) / std::max({std::abs(before), std::abs(foretold), 1e-300});
         if (equations_.residual().allFinite() && (off <= 0.5 || reach(*d) < 1e-6)) {
@@ -141,7 +141,7 @@ class Relaxation {
         }
       }
       step_ *= 0.3;
-      equations_.evaluate(op, true);
+      equations_.evaluate(op, Partials::yes);
     }
     return false;
   }

@@ -60,7 +60,7 @@ std::optional<OperatingPoint> within(const StaticTolerance& tolerance, StaticEqu
                                      Findings& findings) {
   equations.measure_by(Yardstick::model);
   settle(equations, op);
-  equations.evaluate(op, true);
+  equations.evaluate(op, Partials::yes);
   const auto j = judge(equations, op);
   if (!j || !(j->largest <= tolerance.error) || !(equations.imbalance() <= tolerance.imbalance)) return std::nullopt;
   const Eigen::VectorXd& r = equations.residual();
@@ -178,7 +178,7 @@ Result<OperatingPoint> EquilibriumSearch::run(AtSaddles at_saddles, const std::v
     if (down.moved) op_ = std::move(down.op), held_states_ = down.held_states;
   }
   if (held_states_) keep_first_state(first_state);
-  equations_.evaluate(op_, true);
+  equations_.evaluate(op_, Partials::yes);
   if (is_grossly_unbalanced()) return refused();
   OperatingPoint rest = with_report(std::move(op_));
   if (options_.tolerance && report_.imbalance > options_.tolerance->imbalance) {
@@ -197,9 +197,9 @@ bool EquilibriumSearch::is_grossly_unbalanced() {
   const double imbalance = equations_.imbalance();
   if (!(imbalance > gross * equations_.force_scale()) || equations_.excess() < far_above_rounding) return false;
   if (equations_.is_moved_by_rounding_alone()) return false;
-  equations_.evaluate(drawn_, true);
+  equations_.evaluate(drawn_, Partials::yes);
   const bool is_gross = imbalance > gross * equations_.imbalance();
-  equations_.evaluate(op_, true);
+  equations_.evaluate(op_, Partials::yes);
   return is_gross;
 }
 
@@ -218,16 +218,16 @@ void EquilibriumSearch::search_downhill() {
 
 void EquilibriumSearch::note_nearest(const OperatingPoint& point) {
   if (escaped(system_, drawn_, point)) return;
-  equations_.evaluate(nearest_, false);
+  equations_.evaluate(nearest_, Partials::no);
   const double force = equations_.force_scale(), before = equations_.merit(force);
-  equations_.evaluate(point, false);
+  equations_.evaluate(point, Partials::no);
   if (equations_.merit(force) < before) nearest_ = point;
 }
 
 // Whether no search needs to be made.
 bool EquilibriumSearch::is_hopeless() {
   equations_.measure_by(Yardstick::model);
-  equations_.evaluate(drawn_, true);
+  equations_.evaluate(drawn_, Partials::yes);
   // Nothing can be searched where the equations have no value.
   if (!equations_.residual().allFinite()) return true;
   // What nothing holds at the first point, at the best and at the last is held nowhere, unless forces set in
@@ -306,7 +306,7 @@ void EquilibriumSearch::keep_first_state(const std::vector<double>& first_state)
   OperatingPoint kept = op_;
   kept.state = first_state;
   settle(equations_, kept);
-  equations_.evaluate(kept, true);
+  equations_.evaluate(kept, Partials::yes);
   const auto j = judge(equations_, kept);
   if (j && j->balanced && j->determined) {
     op_ = std::move(kept);
@@ -314,7 +314,7 @@ void EquilibriumSearch::keep_first_state(const std::vector<double>& first_state)
   }
   kept = op_;
   kept.state = first_state;
-  equations_.evaluate(op_, true);
+  equations_.evaluate(op_, Partials::yes);
   auto back = put_back(equations_, op_, kept);
   if (!back) return;
   const FirstFreedoms any{*back, std::vector<bool>(static_cast<std::size_t>(equations_.residual().size()), true)};

@@ -24,7 +24,7 @@ TEST(FirstFreedoms, what_the_tangent_leaves_open_goes_back_and_what_it_holds_sta
   s.op.poses[1].r.z = 0.5;
   s.op.poses[2].R = rotation_exponential({0, 0, 1.7});
   settle(s.equations, s.op);
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   const auto back = put_back(s.equations, s.op, first.at);
   ASSERT_TRUE(back);
   EXPECT_NEAR(back->poses[1].r.z, 0.5, 1e-6);

@@ -16,7 +16,7 @@ constexpr double regularization = 1e-10;
 class Curve {
  public:
   Curve(StaticEquations& equations, const OperatingPoint& start) : equations_(equations), system_(equations.system()) {
-    equations_.evaluate(start, true);
+    equations_.evaluate(start, Partials::yes);
     load_ = equations_.residual();
     const AugmentedSystem& augmented = equations_.augmented();
     load_.segment(augmented.lambda(0), augmented.algebraic(0) - augmented.lambda(0)).setZero();
@@ -111,7 +111,7 @@ class Curve {
     const auto n = equations_.augmented().size();
     double before = std::numeric_limits<double>::infinity();
     for (iterations = 0; iterations < 10; ++iterations) {
-      equations_.evaluate(p.op, true);
+      equations_.evaluate(p.op, Partials::yes);
       Eigen::MatrixXd step = Eigen::MatrixXd::Zero(n + 1, 1);
       step.col(0).head(n) = (1 - p.s) * load_ - equations_.residual();
       const double level = std::sqrt(equations_.merit(step.col(0).head(n), force_));

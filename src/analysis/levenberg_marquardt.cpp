@@ -65,7 +65,7 @@ std::optional<Eigen::VectorXd> damped_step(StaticEquations& equations, const Eig
 bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_limit, StepsMay may) {
   const System& system = equations.system();
   settle(equations, op);
-  equations.evaluate(op, true);
+  equations.evaluate(op, Partials::yes);
   const double force = equations.force_scale();
   const Eigen::VectorXd row_unit = equations.row_units(force);
   Eigen::VectorXd column_unit = equations.column_units(op);
@@ -89,7 +89,7 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     if (step) {
       OperatingPoint next = moved(system, op, equations.augmented(), *step, 1.0, {0.5});
       settle(equations, next);
-      equations.evaluate(next, true);
+      equations.evaluate(next, Partials::yes);
       const double after = equations.merit(force);
       const double limit = last.empty() ? merit : std::max(merit, *std::ranges::max_element(last));
       if (after < limit * (1 - 1e-6)) {
@@ -108,7 +108,7 @@ bool reduce_imbalance(StaticEquations& equations, OperatingPoint& op, int step_l
     if (!taken) {
       mu *= growth;
       growth *= 2;
-      equations.evaluate(op, true);
+      equations.evaluate(op, Partials::yes);
     }
   }
   return std::sqrt(merit) < near_rest;

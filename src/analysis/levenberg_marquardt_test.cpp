@@ -46,7 +46,7 @@ TEST(LevenbergMarquardt, every_step_brings_it_closer) {
   double before = s.imbalance();
   for (int k = 0; k < 5; ++k) {
     reduce_imbalance(s.equations, s.op, 1);
-    s.equations.evaluate(s.op, true);
+    s.equations.evaluate(s.op, Partials::yes);
     const double now = std::sqrt(s.equations.merit(1.0));
     if (k > 0) {
       EXPECT_LE(now, before * (1 + 1e-12));

@@ -39,7 +39,7 @@ struct Limit {
     system->equations(m, rows, eq,
                       {PartialBy::position, PartialBy::velocity, PartialBy::damping, PartialBy::acceleration,
                        PartialBy::lambda, PartialBy::algebraic, PartialBy::state, PartialBy::state_rate});
-    part = system->partition(rows, true);
+    part = system->partition(rows, RowLevel::velocity);
   }
   MasslessDirections directions() const { return massless_directions(*system, system->motion(op), rows, part.active); }
   Result<std::optional<MasslessLimit>> limit(bool without_damping = false) const {

@@ -43,7 +43,7 @@ bool iterate_by_newton(StaticEquations& equations, OperatingPoint& op, const Ori
   for (int k = 0; left > 0; ++k, --left) {
     const std::size_t entries = options.pattern.size();
     const bool anew = k == 0 || met || entries == 0 || options.pattern[static_cast<std::size_t>(k) % entries];
-    equations.evaluate(op, anew);
+    equations.evaluate(op, anew ? Partials::yes : Partials::no);
     if (!equations.residual().allFinite()) return false;
     const double s = options.stability;
     if (anew && !equations.factor(lu, equations.tangent_of_motion(s, s, s))) return false;

@@ -111,7 +111,7 @@ std::optional<Eigen::VectorXd> step_off_saddle(StaticEquations& equations, const
   if (n == 0 || n > most_coordinates) return std::nullopt;
   Eigen::VectorXd size(n);
   for (std::int32_t k = 0; k < n; ++k) size(k) = system.coordinate_scale(k);
-  equations.evaluate(at_rest, true);
+  equations.evaluate(at_rest, Partials::yes);
   const auto allowed = allowed_motions(equations, size);
   if (!allowed) return std::nullopt;
   const Matrix symmetric = 0.5 * (allowed->stiffness + allowed->stiffness.transpose()),
@@ -122,7 +122,7 @@ std::optional<Eigen::VectorXd> step_off_saddle(StaticEquations& equations, const
   const double least = -unseen_stiffness * stiffness.cwiseAbs().maxCoeff();
   if (!(stiffness(0) < least)) return std::nullopt;
 
-  equations.evaluate(drawn, true);
+  equations.evaluate(drawn, Partials::yes);
   const Eigen::VectorXd push = -equations.residual().head(n), rounding = equations.rounding().head(n);
   Eigen::VectorXd off = Eigen::VectorXd::Zero(n);
   for (Index k = 0; k < stiffness.size() && stiffness(k) < least; ++k) {

@@ -71,7 +71,7 @@ std::optional<OperatingPoint> rest_beside(const System& system, OperatingPoint o
   double hold_states = 0, before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
     settle(equations, op);
-    equations.evaluate(op, true);
+    equations.evaluate(op, Partials::yes);
     if (!equations.residual().allFinite()) return std::nullopt;
     auto step = step_across(equations, B, hold_states);
     if (!step && hold_states == 0) {  // pure integrators have any value

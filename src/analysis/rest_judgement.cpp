@@ -147,7 +147,7 @@ bool balanced_to_rounding(const StaticEquations& equations) {
 }
 
 std::vector<bool> free_unknowns(StaticEquations& equations, const OperatingPoint& op) {
-  equations.evaluate(op, true);
+  equations.evaluate(op, Partials::yes);
   const auto count = static_cast<std::size_t>(equations.residual().size());
   const auto judgement = judge(equations, op);
   if (!judgement) return std::vector<bool>(count, true);

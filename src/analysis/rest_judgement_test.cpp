@@ -20,7 +20,7 @@ std::string bead(const std::string& force, double x) {
 }
 
 RestJudgement judged(Search& s) {
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   const auto j = judge(s.equations, s.op);
   EXPECT_TRUE(j.has_value());
   return j.value_or(RestJudgement());
@@ -87,7 +87,7 @@ TEST(RestJudgement, a_move_along_what_is_free_is_undetermined_and_across_it_is_n
   Search s(
       "POINT_MASS/2, MASS=1, CM=20\nMARKER/20, POINT_MASS=2\nMARKER/9, PART=1, FLOATING\n"
       "VFORCE/1, I=20, JFLOAT=9, RM=1, FX=-3*DX(20,1)\\, FY=0\\, FZ=-2*DZ(20,1)\n");
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   Eigen::VectorXd move = Eigen::VectorXd::Zero(s.equations.augmented().size());
   const std::int32_t first = s.system->layout().bodies[1].offset;
   move.segment<3>(first) << 0.5, 0.25, -0.125;

@@ -48,7 +48,7 @@ void define_values(StaticEquations& equations, OperatingPoint& op) {
   auto before = static_cast<std::ptrdiff_t>(undefined.size());
   SparseLu lu;
   for (int fruitless = 0; fruitless < patience; ++fruitless) {
-    equations.evaluate(op, true);
+    equations.evaluate(op, Partials::yes);
     Eigen::MatrixXd step = -equations.residual().segment(first, static_cast<Eigen::Index>(undefined.size()));
     for (std::size_t k = 0; k < undefined.size(); ++k) {
       double& missing = step(static_cast<Eigen::Index>(k), 0);
@@ -92,7 +92,7 @@ void settle(StaticEquations& equations, OperatingPoint& op) {
   double before = std::numeric_limits<double>::infinity();
   SparseLu lu;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    equations.evaluate(next, true);
+    equations.evaluate(next, Partials::yes);
     if (!equations.residual().allFinite()) {
       if (iteration > 0 && truly_undefined(equations)) op = std::move(next);
       return;

@@ -12,7 +12,7 @@ namespace {
 
 TEST(SettledReactions, do_no_work_on_what_is_left) {
   Search s(pendulum(0.6));
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   // Only the moment about the hinge is left: its rows have the weight's, the others are met.
   const Eigen::VectorXd& r = s.equations.residual();
   EXPECT_NEAR(r(5), 20 * std::sin(0.6), 1e-12);

@@ -35,6 +35,13 @@ class Descent {
   const std::string& doubt() const { return doubt_; }
 
  private:
+  // Residuals in units of rounding: those that say nothing, those that Newton's steps alone may settle, and those of a
+  // force that certainly acted.
+  static constexpr double residual_noise = 100, little_excess = 1e4, certain_excess = 1e5;
+  // Of the size of an unknown: moves that are at rest, and steps that change what rounding decides.
+  static constexpr double settled_move = 1e-6, last_digits = 1e-12;
+  static constexpr double nearer = 0.8;  // of the least merit or step so far: progress
+
   std::optional<Eigen::VectorXd> solve(double hold);
   bool newton(OperatingPoint& op, double level);
   bool implicit(OperatingPoint& op);

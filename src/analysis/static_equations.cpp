@@ -19,11 +19,11 @@ StaticEquations::StaticEquations(const System& system)
   for (const DifferentialState& z : system.layout().states) held_.push_back(z.held_in_statics);
 }
 
-void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
+void StaticEquations::evaluate(const OperatingPoint& op, Partials wanted) {
   const Motion motion = system_.motion(op);
   system_.constraints(motion, rows_);
-  if (with_partials || part_.active.empty()) part_ = system_.partition(rows_, false);
-  if (with_partials) {
+  if (wanted == Partials::yes || part_.active.empty()) part_ = system_.partition(rows_, RowLevel::position);
+  if (wanted == Partials::yes) {
     using P = PartialBy;
     if (motion_)
       system_.equations(
@@ -49,7 +49,7 @@ void StaticEquations::evaluate(const OperatingPoint& op, bool with_partials) {
     if (part_.active[static_cast<std::size_t>(k)]) residual_(augmented_.lambda(k)) = rows_.along_motion(k).value;
   }
   measure_forces(op);
-  if (!with_partials) return;
+  if (wanted == Partials::no) return;
   if (stiffness_ == 0) measure_stiffness();
   measure_rounding(op);
   measure_parts();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/augmented_system.h"
+#include "base/partials.h"
 #include "system/system.h"
 
 namespace dynalin {
@@ -20,7 +21,7 @@ class StaticEquations {
  public:
   explicit StaticEquations(const System&);
 
-  void evaluate(const OperatingPoint&, bool with_partials);
+  void evaluate(const OperatingPoint&, Partials wanted);
 
   const System& system() const { return system_; }
   const AugmentedSystem& augmented() const { return augmented_; }

@@ -16,10 +16,10 @@ TEST(StaticEquations, the_tangent_is_the_derivative_of_the_residual_and_holding_
   const auto residual = [&](Eigen::Index c, double by) -> Eigen::VectorXd {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(s.equations.augmented().size());
     step(c) = by;
-    s.equations.evaluate(moved(*s.system, s.op, s.equations.augmented(), step, 1.0, {1.0}), false);
+    s.equations.evaluate(moved(*s.system, s.op, s.equations.augmented(), step, 1.0, {1.0}), Partials::no);
     return s.equations.residual();
   };
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   const ColumnMatrix plain = s.equations.tangent(0, 0), held = s.equations.tangent(1e3, 1e2);
   constexpr double h = 2e-3;
   for (std::int32_t c = 0; c < plain.columns; ++c) {
@@ -47,7 +47,7 @@ TEST(StaticEquations, the_tangent_is_the_derivative_of_the_residual_and_holding_
     }
   }
   // damping(step) is that of the diagonal for unit holding
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(plain.rows);
   step(5) = 2;
   const double one = s.equations.damping(step);
@@ -60,10 +60,10 @@ TEST(StaticEquations, the_tangent_is_the_derivative_of_the_residual_and_holding_
 
 TEST(StaticEquations, the_equation_farthest_from_being_met_is_named) {
   Search s(pendulum(0.6));
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   EXPECT_EQ(s.equations.worst(20), "the unbalanced force is largest at AZ of PART/2");
   Search f(fold);
-  f.equations.evaluate(f.op, true);
+  f.equations.evaluate(f.op, Partials::yes);
   EXPECT_EQ(f.equations.worst(1).substr(0, 41), "the state of DIFF/7 does not come to rest");
   EXPECT_EQ(f.equations.equation_text(0), "the state of DIFF/7");
 }

@@ -33,7 +33,7 @@ std::string exhausted_friction(const System& system, const Motion& motion) {
 }  // namespace
 
 std::vector<std::string> unheld_parts(StaticEquations& equations, const OperatingPoint& op) {
-  equations.evaluate(op, true);
+  equations.evaluate(op, Partials::yes);
   if (!equations.residual().allFinite()) return {};
   const System& system = equations.system();
   const Layout& layout = system.layout();
@@ -106,7 +106,7 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
   const System& system = equations.system();
   Failure f{"statics", "no equilibrium was found", std::move(history), "no-equilibrium"};
   const auto no_value = [&] {
-    equations.evaluate(op, true);
+    equations.evaluate(op, Partials::yes);
     const Eigen::VectorXd sum = equations.residual() + equations.rounding();
     if (sum.allFinite()) return false;
     f.message = system.undefined_value(system.motion(op)), f.code = "undefined-value";

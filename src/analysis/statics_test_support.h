@@ -28,7 +28,7 @@ struct Search {
 
   // Largest residual at the point, in units of the equations.
   double imbalance() {
-    equations.evaluate(op, true);
+    equations.evaluate(op, Partials::yes);
     return equations.residual().cwiseAbs().maxCoeff();
   }
 };

@@ -19,7 +19,7 @@ const std::string welded =
 
 TEST(StiffRest, a_load_below_the_rounding_of_a_weld_leaves_its_soft_support_undetermined) {
   Search s(welded);
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   EXPECT_TRUE(balanced_to_rounding(s.equations));
   const auto j = judge(s.equations, s.op);
   ASSERT_TRUE(j);
@@ -30,7 +30,7 @@ TEST(StiffRest, a_load_below_the_rounding_of_a_weld_leaves_its_soft_support_unde
 
 TEST(StiffRest, rounding_of_places_is_left_out_of_that_of_terms) {
   Search s(welded);
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   EXPECT_GT(s.equations.rounding()(1), 1e-4);
   EXPECT_LT(s.equations.rounding_of_terms()(1), 1e-15);
   EXPECT_NEAR(s.equations.rounding_of_unknowns()(1), 1000 * std::sqrt(2) * 2.2e-16, 1e-14);
@@ -38,7 +38,7 @@ TEST(StiffRest, rounding_of_places_is_left_out_of_that_of_terms) {
 
 TEST(StiffRest, what_nothing_holds_is_indifferent_all_the_same) {
   Search s("PART/2,MASS=1,CM=20,IP=1,1,1,QG=1000,0,0\nMARKER/20\n");
-  s.equations.evaluate(s.op, true);
+  s.equations.evaluate(s.op, Partials::yes);
   const auto j = judge(s.equations, s.op);
   ASSERT_TRUE(j);
   EXPECT_EQ(std::count(j->indifferent.begin(), j->indifferent.end(), true), 6);

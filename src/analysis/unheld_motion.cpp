@@ -114,7 +114,7 @@ struct Driven {
 }  // namespace
 
 std::vector<UnheldMotion> unheld_motions(StaticEquations& equations, const OperatingPoint& op) {
-  equations.evaluate(op, true);
+  equations.evaluate(op, Partials::yes);
   const Eigen::VectorXd& r = equations.residual();
   if (!r.allFinite()) return {};
   const ColumnMatrix J = equations.tangent(0, 0);

@@ -163,7 +163,7 @@ double unit_of(const System& system, const VelocityCondition& c) {
 Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const ConstraintRows& rows,
                                 const std::vector<VelocityCondition>& conditions, const Eigen::VectorXd& start) {
   const auto n = static_cast<Eigen::Index>(system.coordinates());
-  const std::vector<bool> active = system.partition(rows, true).active;
+  const std::vector<bool> active = system.partition(rows, RowLevel::velocity).active;
   std::vector<Triplet> entries;
   add_norm(system, motion, 1e-10, entries);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);

@@ -37,8 +37,8 @@ void empty_rows(const System& system, const OperatingPoint& op, Diagnostics& out
 }
 
 void disproportion(const System& system, const LinearSystem& linear, Diagnostics& out) {
-  constexpr double far = 1e5;
-  const auto found = largest_disproportion(system, linear, far);
+  constexpr double disproportionate = 1e5;
+  const auto found = largest_disproportion(system, linear, disproportionate);
   if (!found) return;
   const StateLabel& s = linear.model.states[found->state];
   out.warning("near-singular", {},

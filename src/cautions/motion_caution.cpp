@@ -21,9 +21,9 @@ namespace {
 constexpr double balance = 1e-6;   // of the forces at play
 constexpr double unseen = 1e-9;    // turn beside the slowest mode, acceleration beside gravity and what that mode does
 constexpr double roundings = 100;  // that forces may be off: the estimate counts each number once
-constexpr double stated_digits = 1e-10;  // to which a dataset states coordinates, of the model's length
-constexpr double unresisted = 1e-14;     // of a part's stiffness, along the whole model: forces that are nothing
-constexpr double rounding = 1e-12;       // what solving may leave of one movement beside the others
+constexpr double stated_digits = 1e-10;    // to which a dataset states coordinates, of the model's length
+constexpr double unresisted = 1e-14;       // of a part's stiffness, along the whole model: forces that are nothing
+constexpr double left_by_solving = 1e-12;  // what solving may leave of one movement beside the others
 
 // Of the slowest mode that is not a structural zero [rad/time]; 0 if there is none.
 double slowest_mode(const EigenSolution& modes) {
@@ -43,7 +43,7 @@ class Unbalanced {
     const Eigen::VectorXd acceleration = as_vector(op.acceleration), velocity = as_vector(op.velocity);
     std::ranges::fill(op.acceleration, 0.0);
     equations_.look_at_motion();
-    equations_.evaluate(op, true);
+    equations_.evaluate(op, Partials::yes);
     force_ = equations_.residual().head(acceleration.size());
     // What has no mass is in balance at any time: it accelerates as long as dampers move it.
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(acceleration.size()),
@@ -114,10 +114,10 @@ struct Movement {
   double size(double length) const { return acceleration + length * (turning * turning + spin_up); }
   // The same, and 0 for what is rounding.
   Movement seen(double length) const {
-    const double least = rounding * std::max(size(length), of_shape);
+    const double least = left_by_solving * std::max(size(length), of_shape);
     Movement m = *this;
     if (acceleration <= least) m.acceleration = 0;
-    if (length * turning * turning <= rounding * least) m.turning = 0;
+    if (length * turning * turning <= left_by_solving * least) m.turning = 0;
     if (length * spin_up <= least) m.spin_up = 0;
     if (of_shape <= least) m.deformation = 0;
     return m;

@@ -24,7 +24,7 @@ struct Held {
 std::optional<Held> most_held(const Stiction& s, const ElementLabel& friction, const LinearSystem& linear,
                               const EigenSolution& modes, const ModalDistribution& energies) {
   if (modes.vectors.cols() != static_cast<Eigen::Index>(modes.modes.size())) return std::nullopt;
-  constexpr double nothing = 1e-9;  // of the kinetic energy
+  constexpr double least_part_of_energy = 1e-9;  // of the kinetic energy
   std::optional<Held> most;
   for (std::size_t mode = 0; mode < modes.modes.size(); ++mode) {
     if (modes.modes[mode].structural_zero) continue;
@@ -39,7 +39,8 @@ std::optional<Held> most_held(const Stiction& s, const ElementLabel& friction, c
       energy += 0.5 * s.stiffness.at(direction) * std::norm(v(static_cast<Eigen::Index>(k)) / largest);
     }
     const double share = energy / kinetic;
-    if (most ? is_clearly_larger(share, most->share, equal_solutions) : share > nothing) most = {mode, share};
+    if (most ? is_clearly_larger(share, most->share, equal_solutions) : share > least_part_of_energy)
+      most = {mode, share};
   }
   return most;
 }

@@ -6,8 +6,8 @@
 namespace dynalin {
 
 bool KrylovProgress::is_found(const Value& value, double largest) {
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  return value.rest <= std::max(tolerance * value.size, rounding * largest);
+  constexpr double rounding_of_largest = 4 * std::numeric_limits<double>::epsilon();
+  return value.rest <= std::max(tolerance * value.size, rounding_of_largest * largest);
 }
 
 void KrylovProgress::look(Eigen::Index found, Eigen::Index all, double last, const std::optional<Value>& next) {

@@ -51,12 +51,12 @@ bool split_pair(EigenPairs& pairs, std::size_t k, double value, double least) {
 }  // namespace
 
 void clear_rounding(EigenPairs& pairs, std::vector<EigenTrust>& trust) {
-  constexpr double rounding = 1e-13;
+  constexpr double rounding_of_real_part = 1e-13;
   double fastest = 0;
   for (const std::complex<double>& v : pairs.values) fastest = std::max(fastest, std::abs(v));
   for (std::size_t k = 0; k < trust.size(); ++k) {
     std::complex<double>& v = pairs.values[k];
-    const double unit = rounding * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
+    const double unit = rounding_of_real_part * (v.imag() == 0 ? fastest : std::abs(v.imag())), re = std::abs(v.real());
     // To first order the bound of a zero is the value that is computed for it, by a hair more or less.
     if (re > 2 * trust[k].bound || re > unit) continue;
     v.real(0);

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = ExpressionNode::Kind;
 
-constexpr double rounding = 1e-13;  // what a sum of numbers that cancel may leave, of their sizes
+constexpr double rounding_of_coefficients = 1e-13;  // what a sum of numbers that cancel may leave, of their sizes
 
 // What a key is of, beside the kinds of nodes.
 enum Of : std::uint64_t { inverse = 100, slope, selected, alone };
@@ -211,7 +211,7 @@ std::vector<FormalPartials::Sum> FormalPartials::of(const Expression& e) {
   std::vector<Sum> sums(whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) {
     for (const auto& [term, c] : whole[k]) {
-      if (std::abs(c.number) > rounding * c.size) sums[k][term] = c.number;
+      if (std::abs(c.number) > rounding_of_coefficients * c.size) sums[k][term] = c.number;
     }
   }
   return sums;

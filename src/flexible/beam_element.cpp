@@ -6,9 +6,9 @@ namespace dynalin {
 
 using beam::cubic_at, beam::cubics, beam::four_places, beam::four_weights, beam::second_moments, beam::traced;
 
-void BeamForces::clear(bool with_partials) {
+void BeamForces::clear(Partials wanted) {
   elastic.setZero(), inertia.setZero();
-  if (!with_partials) return;
+  if (wanted == Partials::no) return;
   stiffness.setZero(), damping.setZero(), by_position.setZero(), by_rate.setZero(), mass.setZero();
 }
 
@@ -46,8 +46,7 @@ Matrix3 BeamElement::nodal_inertia(std::size_t node) const {
   return J;
 }
 
-void BeamElement::add_translation(const BeamMotion& m, const Vector& gravity, bool with_partials,
-                                  BeamForces& out) const {
+void BeamElement::add_translation(const BeamMotion& m, const Vector& gravity, Partials wanted, BeamForces& out) const {
   const auto accelerations = [](const Vec3<BeamMotion::Scalar>& v) {
     return Vector{v.x.acceleration, v.y.acceleration, v.z.acceleration};
   };
@@ -60,7 +59,7 @@ void BeamElement::add_translation(const BeamMotion& m, const Vector& gravity, bo
       double sum = -gravity[i] * first_moment_(a);
       for (Eigen::Index b = 0; b < 4; ++b) {
         sum += mass_(a, b) * moving[static_cast<std::size_t>(b)][i];
-        if (with_partials) out.mass(at + k, cubic_at[static_cast<std::size_t>(b)] + k) += mass_(a, b);
+        if (wanted == Partials::yes) out.mass(at + k, cubic_at[static_cast<std::size_t>(b)] + k) += mass_(a, b);
       }
       out.inertia(at + k) += sum;
     }

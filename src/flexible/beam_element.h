@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "base/partials.h"
 #include "base/time_taylor.h"
 #include "base/vec3.h"
 
@@ -50,7 +51,7 @@ struct BeamForces {
   // Partials: of the elastic forces by coordinates and rates, of the inertia by coordinates, rates and accelerations.
   BeamMatrix stiffness, damping, by_position, by_rate, mass;
 
-  void clear(bool with_partials);
+  void clear(Partials wanted);
 };
 
 // Where loads along an element are integrated (flexible/beam_load.h).
@@ -69,7 +70,7 @@ class BeamElement {
 
   // The first so many of the coordinates are there; what belongs to others is zero.
   virtual std::size_t coordinates() const = 0;
-  virtual void forces(const BeamMotion&, const Vector& gravity, bool with_partials, BeamForces&) const = 0;
+  virtual void forces(const BeamMotion&, const Vector& gravity, Partials wanted, BeamForces&) const = 0;
   // The mass matrix alone.
   virtual BeamMatrix mass_matrix(const BeamMotion&) const;
   // Twice the kinetic energy of velocities by X Y Z, RXX RYY RZZ, RXY RXZ RYZ, global axes.
@@ -97,7 +98,7 @@ class BeamElement {
   BeamElement(const BeamElement&) = default;
   BeamElement& operator=(const BeamElement&) = default;
 
-  void add_translation(const BeamMotion&, const Vector& gravity, bool with_partials, BeamForces&) const;
+  void add_translation(const BeamMotion&, const Vector& gravity, Partials wanted, BeamForces&) const;
   const BeamMaterial& material() const { return material_; }
   // Varies linearly from one node to the other; x from −1 to 1.
   BeamSection section_at(double x) const;

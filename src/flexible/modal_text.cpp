@@ -342,7 +342,7 @@ class TextReader {
   template <class Entries>
   void check_pairs(const std::vector<double>& all, std::size_t components, const Entries& entries) {
     if (failed_ || all.empty()) return;
-    constexpr double rounding = 1e-6, near = 1e-2;
+    constexpr double rounding_of_records = 1e-6, near = 1e-2;
     const double largest = std::abs(*std::ranges::max_element(all, {}, [](double v) { return std::abs(v); }));
     double most = 0;
     for (std::size_t j = 0; j < modes_; ++j) {
@@ -357,7 +357,7 @@ class TextReader {
         }
       }
     }
-    if (most > rounding * largest) {
+    if (most > rounding_of_records * largest) {
       out_.warning(
           "body-file-doubt", body_.at[record_],
           fmt::format("what RECORD GROUP {} has of two modes differs by {:.1e} of its largest entry from what it "
@@ -379,23 +379,6 @@ class TextReader {
 };
 
 }  // namespace
-
-BodyFileType body_file_type(std::string_view bytes) {
-  if (bytes.starts_with("bmod")) return BodyFileType::binary_cache;
-  const std::string_view start = bytes.substr(0, 4096);
-  const auto strange = [](char c) {
-    const auto u = static_cast<unsigned char>(c);
-    return u < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f';
-  };
-  if (std::any_of(start.begin(), start.end(), strange)) return BodyFileType::binary_modal;
-  for (std::size_t at = 0; at < bytes.size();) {
-    if (bytes.substr(at).starts_with("** RECORD GROUP 1")) return BodyFileType::modal_text;
-    const std::size_t end = bytes.find('\n', at);
-    if (end == std::string_view::npos) break;
-    at = end + 1;
-  }
-  return BodyFileType::other_text;
-}
 
 std::optional<ModalText> read_modal_text(const SourceText& file, Diagnostics& diagnostics) {
   return TextReader(file, diagnostics).read();

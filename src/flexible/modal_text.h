@@ -42,10 +42,6 @@ struct ModalText {
   Eigen::Index modes() const { return displacement.size(); }
 };
 
-// What the first bytes say of a body file.
-enum class BodyFileType { modal_text, binary_modal, binary_cache, other_text };
-BodyFileType body_file_type(std::string_view bytes);
-
 // Reads all records; nothing after an error, which stands at its line of the file.
 std::optional<ModalText> read_modal_text(const SourceText&, Diagnostics&);
 

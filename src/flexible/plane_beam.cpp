@@ -120,8 +120,8 @@ void PlaneBeam::add(const Block& by, BeamMatrix& out) const {
 
 // With T and M the stresses on |v| and on the angles, f = T n + M p/|v| acts on a direction; n turns by p δα, and |v|
 // changes by n·δv.
-void PlaneBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_partials, BeamForces& out) const {
-  out.clear(with_partials);
+void PlaneBeam::forces(const BeamMotion& m, const Vector& gravity, Partials wanted, BeamForces& out) const {
+  out.clear(wanted);
   const Directions d = directions(m);
   const double c = material().damping;
   Eigen::Vector3d stretch, turn = angles(d) - undeformed_;
@@ -137,8 +137,8 @@ void PlaneBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_par
     on[j] = T(k) * d[j].n + M(k) * d[j].of_angle();
   }
   add(on, out.elastic);
-  add_translation(m, gravity, with_partials, out);
-  if (!with_partials) return;
+  add_translation(m, gravity, wanted, out);
+  if (wanted == Partials::no) return;
   Block stiffness, damping;
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t k = 0; k < 3; ++k) {

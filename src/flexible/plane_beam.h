@@ -33,7 +33,7 @@ class PlaneBeam final : public BeamElement {
             const std::array<Matrix3, 2>& axes);
 
   std::size_t coordinates() const override { return 18; }
-  void forces(const BeamMotion&, const Vector& gravity, bool with_partials, BeamForces&) const override;
+  void forces(const BeamMotion&, const Vector& gravity, Partials wanted, BeamForces&) const override;
   double largest_turn(const BeamMotion&) const override;
   bool turns_sections(std::size_t coordinate) const override;
   Spins spins(const BeamMotion&) const override;

@@ -126,7 +126,7 @@ TEST(plane_beam, forces_are_the_slopes_of_the_strain_energy) {
   const Eight q = values_of(far_bent());
   const PlaneBeam e = element(xy);
   BeamForces f;
-  e.forces(motion_of(xy, q), {}, false, f);
+  e.forces(motion_of(xy, q), {}, Partials::no, f);
   constexpr double h = 1e-5;
   double found = 0;
   for (std::size_t k = 0; k < 8; ++k) {
@@ -142,13 +142,13 @@ TEST(plane_beam, partials_are_those_of_the_forces_along_varied_motions) {
   for (const BeamPlane& p : {xy, yz, zx}) {
     const PlaneBeam e = element(p);
     BeamForces f;
-    e.forces(motion_of(p, far_bent()), gravity, true, f);
+    e.forces(motion_of(p, far_bent()), gravity, Partials::yes, f);
     constexpr double h = 1e-6;
     for (std::size_t k = 0; k < 8; ++k) {
       for (int level = 0; level < 3; ++level) {
         const auto forces = [&](double by) {
           BeamForces out;
-          e.forces(motion_of(p, moved(far_bent(), k, by, level)), gravity, false, out);
+          e.forces(motion_of(p, moved(far_bent(), k, by, level)), gravity, Partials::no, out);
           return out;
         };
         const BeamForces plus = forces(h), minus = forces(-h);
@@ -172,9 +172,9 @@ TEST(plane_beam, partials_are_those_of_the_forces_along_varied_motions) {
 
 TEST(plane_beam, is_the_same_in_every_plane) {
   BeamForces one, other;
-  element(xy).forces(motion_of(xy, far_bent()), {}, true, one);
+  element(xy).forces(motion_of(xy, far_bent()), {}, Partials::yes, one);
   for (const BeamPlane& p : {yz, zx}) {
-    element(p).forces(motion_of(p, far_bent()), {}, true, other);
+    element(p).forces(motion_of(p, far_bent()), {}, Partials::yes, other);
     for (std::size_t k = 0; k < 8; ++k) {
       EXPECT_NEAR(one.elastic(place(xy, k)), other.elastic(place(p, k)), 1e-12 * one.elastic.norm());
       for (std::size_t i = 0; i < 8; ++i) {
@@ -194,7 +194,7 @@ TEST(plane_beam, small_strains_of_a_straight_one_are_those_of_the_cubic) {
   for (Scalar& x : q) x = Scalar(0.0);
   q[2] = q[6] = Scalar(1.0), q[4] = Scalar(l);
   BeamForces f;
-  e.forces(motion_of(xy, q), {}, true, f);
+  e.forces(motion_of(xy, q), {}, Partials::yes, f);
   EXPECT_LT(f.elastic.norm(), 1e-12);
   const std::array<std::size_t, 4> across = {1, 3, 5, 7}, along = {0, 2, 4, 6};
   const std::array<std::array<double, 4>, 4> bends = {{{12, 6 * l, -12, 6 * l},
@@ -227,10 +227,10 @@ TEST(plane_beam, moved_and_turned_in_the_plane_is_not_strained) {
   put(q, 0, away), put(q, 4, away + turn * std::complex<double>(1.9, 0.2));
   put(q, 2, turn * std::polar(1.0, skewed.heading[0])), put(q, 6, turn * std::polar(1.0, skewed.heading[1]));
   BeamForces f;
-  e.forces(motion_of(xy, q), {}, false, f);
+  e.forces(motion_of(xy, q), {}, Partials::no, f);
   EXPECT_LT(f.elastic.norm(), 1e-12 * material.E);
   q = far_bent();
-  e.forces(motion_of(xy, values_of(q)), {}, false, f);
+  e.forces(motion_of(xy, values_of(q)), {}, Partials::no, f);
   EXPECT_GT(f.elastic.norm(), 1e-2 * material.E);
 }
 
@@ -246,7 +246,7 @@ TEST(plane_beam, pure_bending_is_exact_however_far_it_goes) {
     const std::array<double, 8> at = {0, 0, 1, 0, chord.real(), chord.imag(), end.real(), end.imag()};
     for (std::size_t k = 0; k < 8; ++k) q[k] = Scalar(at[k]);
     BeamForces f;
-    e.forces(motion_of(xy, q), {}, false, f);
+    e.forces(motion_of(xy, q), {}, Partials::no, f);
     const double moment = E * thick.zz * turn / l;
     EXPECT_NEAR(f.elastic(place(xy, 3)), -moment, 1e-11 * moment);
     EXPECT_NEAR(f.elastic(place(xy, 6)), -moment * end.imag(), 1e-11 * moment);
@@ -269,7 +269,7 @@ TEST(plane_beam, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
   BeamMotion m = motion_of(yz, values_of(far_bent()));
   m.acceleration = {Vector{1, 2, 3}, Vector{1, 2, 3}};
   BeamForces f;
-  e.forces(m, gravity, false, f);
+  e.forces(m, gravity, Partials::no, f);
   for (Eigen::Index k = 0; k < 3; ++k) {
     EXPECT_NEAR(f.inertia(k) + f.inertia(6 + k),
                 e.mass() * (static_cast<double>(k) + 1 - gravity[static_cast<std::size_t>(k)]), 1e-12 * e.mass());

@@ -117,8 +117,8 @@ SpatialBeam::SpatialBeam(const BeamMaterial& material, const std::array<BeamSect
   }
 }
 
-void SpatialBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_partials, BeamForces& out) const {
-  out.clear(with_partials);
+void SpatialBeam::forces(const BeamMotion& m, const Vector& gravity, Partials wanted, BeamForces& out) const {
+  out.clear(wanted);
   const RotationField<Scalar> field(m.axes[0], m.axes[1], m.middle);
   const auto sections = sections_of(field, length());
   const Strains strains = strains_of(m, sections);
@@ -129,7 +129,7 @@ void SpatialBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_p
                                                    dot(stresses.moment[k], values(strains.of_curvature[k][a]));
     }
   }
-  if (with_partials) {
+  if (wanted == Partials::yes) {
     add_stiffness(strains, out);
     const auto varied_sections = sections_of(varied(m), length());
     add_held_stresses(m, varied_sections, stresses, out);
@@ -137,7 +137,7 @@ void SpatialBeam::forces(const BeamMotion& m, const Vector& gravity, bool with_p
   } else {
     for (std::size_t k = 0; k < point_count; ++k) add_spin(points_[k], sections[k], nullptr, out);
   }
-  add_translation(m, gravity, with_partials, out);
+  add_translation(m, gravity, wanted, out);
 }
 
 // With the spins w_g of the points the middle strain follows as the line that it leads along does:

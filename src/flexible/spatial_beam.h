@@ -25,7 +25,7 @@ class SpatialBeam final : public BeamElement {
               const std::array<Matrix3, 2>& axes);
 
   std::size_t coordinates() const override { return beam_coordinates; }
-  void forces(const BeamMotion&, const Vector& gravity, bool with_partials, BeamForces&) const override;
+  void forces(const BeamMotion&, const Vector& gravity, Partials wanted, BeamForces&) const override;
   BeamMatrix mass_matrix(const BeamMotion&) const override;
   std::array<double, 9> kinetic_terms(const BeamMotion&, const BeamVector& velocity) const override;
   double largest_turn(const BeamMotion&) const override;

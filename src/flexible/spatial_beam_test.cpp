@@ -145,7 +145,7 @@ TEST(spatial_beam, forces_are_the_slopes_of_the_strain_energy) {
   const SpatialBeam e = element();
   const Place<double> p = at(0.2);
   BeamForces f;
-  e.forces(still(p), {}, false, f);
+  e.forces(still(p), {}, Partials::no, f);
   constexpr double h = 1e-5;
   for (std::size_t k = 0; k < beam_coordinates; ++k) {
     const double slope = (strain_energy(e, moved(p, k, h)) - strain_energy(e, moved(p, k, -h))) / (2 * h);
@@ -158,13 +158,13 @@ TEST(spatial_beam, partials_are_those_of_the_forces_along_varied_motions) {
   const SpatialBeam e = element();
   constexpr double t0 = 0.2, h = 1e-6;
   BeamForces f;
-  e.forces(motion_of(at(time_at(t0))), gravity, true, f);
+  e.forces(motion_of(at(time_at(t0))), gravity, Partials::yes, f);
   for (std::size_t k = 0; k < beam_coordinates; ++k) {
     for (int level = 0; level < 3; ++level) {
       const auto forces = [&](double by) {
         const Scalar varies = level == 0 ? Scalar(by) : level == 1 ? Scalar{0, by, 0} : Scalar{0, 0, by};
         BeamForces out;
-        e.forces(motion_of(moved(at(time_at(t0)), k, varies)), gravity, false, out);
+        e.forces(motion_of(moved(at(time_at(t0)), k, varies)), gravity, Partials::no, out);
         return out;
       };
       const BeamForces plus = forces(h), minus = forces(-h);
@@ -213,7 +213,7 @@ TEST(spatial_beam, power_of_its_inertia_is_the_rate_of_kinetic_energy) {
     return sum;
   };
   BeamForces f;
-  e.forces(motion_of(at(time_at(t0))), {}, false, f);
+  e.forces(motion_of(at(time_at(t0))), {}, Partials::no, f);
   EXPECT_NEAR(f.inertia.dot(velocity(t0)), (energy(t0 + h) - energy(t0 - h)) / (2 * h), 1e-5 * energy(t0));
   const BeamVector v = velocity(t0);
   EXPECT_NEAR(0.5 * v.dot(e.mass_matrix(motion_of(at(time_at(t0)))) * v), energy(t0), 1e-12 * energy(t0));
@@ -227,7 +227,7 @@ TEST(spatial_beam, turned_and_moved_as_a_whole_is_not_strained) {
   p.r = {Vector{5, -7, 3}, Vector{5, -7, 3} + R * Vector{1.9, 0.2, -0.1}};
   for (std::size_t k = 0; k < 2; ++k) p.axes[k] = R * drawn[k], p.slope[k] = R * drawn[k].x;
   BeamForces f;
-  e.forces(still(p), {}, false, f);
+  e.forces(still(p), {}, Partials::no, f);
   EXPECT_LT(f.elastic.norm(), 1e-12 * material.E);
 }
 
@@ -236,7 +236,7 @@ TEST(spatial_beam, weight_and_inertia_of_a_translation_are_those_of_its_mass) {
   BeamMotion m = still(at(0.2));
   m.acceleration = {Vector{1, 2, 3}, Vector{1, 2, 3}};
   BeamForces f;
-  e.forces(m, gravity, false, f);
+  e.forces(m, gravity, Partials::no, f);
   for (Eigen::Index k = 0; k < 3; ++k) {
     EXPECT_NEAR(f.inertia(k) + f.inertia(6 + k),
                 e.mass() * (static_cast<double>(k) + 1 - gravity[static_cast<std::size_t>(k)]), 1e-6 * e.mass());

@@ -101,7 +101,7 @@ void check(const EigenSolution& modes, const LinearModel::Inside& of) {
   RequestCheck c("tables of modes");
   const std::size_t count = modes.modes.size();
   if (count > 0 && modes.vectors.size() == 0) {
-    c.require(false, "they need mode shapes, and these modes were found without: modes() or modes(true) has them");
+    c.require(false, "they need mode shapes, and these modes were found without: modes() has them");
   } else {
     const auto same = [](const StateLabel& a, const StateLabel& b) {
       return a.type == b.type && a.element == b.element && a.coordinate == b.coordinate && a.text == b.text;

@@ -50,6 +50,8 @@ void check_for_states(const Linearization& linear) {
   if (linear.states() == 0) fail(no_states(*linear.system));
 }
 
+Vectors vectors_for(ModeShapes shapes) { return shapes == ModeShapes::wanted ? Vectors::right : Vectors::none; }
+
 }  // namespace
 
 void fail(const StudyFailure& f, std::vector<Remark> said) {
@@ -137,21 +139,20 @@ std::vector<ElementMatrices> LinearModel::element_matrices() const {
   return list;
 }
 
-Modes LinearModel::modes(bool with_shapes) const {
+Modes LinearModel::modes(ModeShapes shapes) const {
   check_for_states(inside_->linear);
   std::vector<Remark> remarks = remarks_of(cost_of_all_modes(inside_->linear.states()));
   const Linearization& whole = inside_->whole();
   append(remarks, inside_->remarks_of_whole());
-  ModesFound found = value_or_throw(modes_of(whole, with_shapes ? Vectors::right : Vectors::none), remarks);
+  ModesFound found = value_or_throw(modes_of(whole, vectors_for(shapes)), remarks);
   append(remarks, remarks_of(found.remarks));
   return {std::move(found.solution), std::move(remarks)};
 }
 
-Modes LinearModel::modes(const ModeSelection& selection, bool with_shapes) const {
+Modes LinearModel::modes(const ModeSelection& selection, ModeShapes shapes) const {
   check_for_states(inside_->linear);
   check(selection);
-  const Vectors wanted = with_shapes ? Vectors::right : Vectors::none;
-  ModesFound found = value_or_throw(modes_of(inside_->linear, wanted, selection));
+  ModesFound found = value_or_throw(modes_of(inside_->linear, vectors_for(shapes), selection));
   return {std::move(found.solution), remarks_of(found.remarks)};
 }
 

@@ -126,14 +126,14 @@ RedundantRows redundant_rows(const System& system, const OperatingPoint& op, dou
 
 NearDependence near_dependence(const System& system, const OperatingPoint& op, const StateChoice& choice) {
   // Poses are rounded: what depends on others to within that does so for all anybody can tell.
-  constexpr double rounding = 1e-13;
+  constexpr double rounding_of_poses = 1e-13;
   NearDependence near;
   double tolerance = EliminationOptions{}.rank_tolerance;
   const RedundantRows dropped = choice.redundant ? *choice.redundant : redundant_rows(system, op, tolerance);
   near.left_out = dropped.rows;
   // With the smaller tolerance the same rows would go at the same time.
-  if (dropped.left <= rounding) return near;
-  const std::vector<std::int32_t> always = redundant_rows(system, op, rounding).rows;
+  if (dropped.left <= rounding_of_poses) return near;
+  const std::vector<std::int32_t> always = redundant_rows(system, op, rounding_of_poses).rows;
   if (always.size() == dropped.rows.size()) return near;
   std::ranges::set_difference(dropped.rows, always, std::back_inserter(near.rows));
   while (redundant_rows(system, op, tolerance / 10).rows.size() == dropped.rows.size()) tolerance /= 10;

@@ -137,10 +137,10 @@ std::string names_of(const System& system, const std::vector<std::int32_t>& rows
 
 // The linear model must not depend on what is not known of the motion of freedoms without mass.
 bool same_model(const LinearSystem& one, const LinearSystem& other) {
-  constexpr double rounding = 1e-9;
+  constexpr double same_entries = 1e-9;
   const auto differs = [&](const Matrix& a, const Matrix& b) {
     return a.rows() != b.rows() || a.cols() != b.cols() ||
-           (a.size() > 0 && ((a - b).array().abs() > rounding * (a.cwiseAbs() + b.cwiseAbs()).maxCoeff()).any());
+           (a.size() > 0 && ((a - b).array().abs() > same_entries * (a.cwiseAbs() + b.cwiseAbs()).maxCoeff()).any());
   };
   return one.A.rows() == other.A.rows() &&
          ((one.A - other.A).array().abs() <= 1e3 * (one.rounding + other.rounding).array()).all() &&

@@ -17,10 +17,10 @@ struct Spring final : WrenchSource {
 
   MarkerId marker_I(std::size_t) const override { return {2}; }
   MarkerId marker_J(std::size_t) const override { return {5}; }
-  void wrench(const Motion& motion, std::size_t, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t, Partials wanted, MarkerWrench& out) const override {
     out.pair = pair_motion(motion, p->marker(2), p->marker(5));
     const Taylor d = norm(out.pair.delta);
-    out.force = along_line(out.pair, {-k * d.value - c * d.rate + w * motion.algebraic[0], -k, -c}, with_partials);
+    out.force = along_line(out.pair, {-k * d.value - c * d.rate + w * motion.algebraic[0], -k, -c}, wanted);
     if (!acts_on_J) out.force.reaction = Reaction::none;
     const Vector line = value(out.pair.delta) / d.value;
     out.scalars.push_back({PartialBy::algebraic, 0, w * line, {}});

@@ -24,7 +24,7 @@ double BoundExpression::force_value(const BoundAtom& a, const Motion& motion) co
   MarkerWrench w;
   for (const ForceTerm& t : of.terms) {
     w.clear();
-    t.wrench.source->wrench(motion, t.wrench.which, false, w);
+    t.wrench.source->wrench(motion, t.wrench.which, Partials::no, w);
     sum += on_marker(w, t.on_J, part_of(of.component));
   }
   if (is_magnitude(of.component)) return norm(sum);
@@ -55,7 +55,7 @@ void BoundExpression::add_force(const BoundAtom& a, const Motion& motion, const 
   for (std::size_t t = 0; t < of.terms.size(); ++t) {
     const ForceTerm& term = of.terms[t];
     MarkerWrench& w = wrenches[t];
-    term.wrench.source->wrench(motion, term.wrench.which, true, w);
+    term.wrench.source->wrench(motion, term.wrench.which, Partials::yes, w);
     sum += on_marker(w, term.on_J, part);
     terms += norm(torque ? w.force.torque : w.force.force);
     if (torque && term.on_J) terms += norm(dynalin::value(w.pair.delta)) * norm(w.force.force);

@@ -16,8 +16,8 @@ namespace {
 
 // Two distances of the sides, of the size of what is moved; the nearer one is about what rounding leaves of it.
 constexpr double far = 1e-9, near = 1e-12;
-constexpr double nothing = 1e-150;  // beside a measure that is zero, of which no size is known
-constexpr double seen = 1e-6;       // of the larger side
+constexpr double step_from_zero = 1e-150;  // beside a measure that is zero, of which no size is known
+constexpr double seen = 1e-6;              // of the larger side
 
 bool differs(double a, double b) { return std::abs(a - b) > seen * std::max(std::abs(a), std::abs(b)); }
 // As far away as near, and not because it is rounding.
@@ -42,7 +42,7 @@ std::string BoundExpression::kink_along(std::size_t moved, double size, std::vec
     values[moved] = x;
     return s;
   };
-  const double step = size > 0 ? size : nothing;
+  const double step = size > 0 ? size : step_from_zero;
   const Side below_far = side(-far * step), above_far = side(far * step);
   const Side below = side(-near * step), above = side(near * step);
   const std::string name(expression_.atoms()[moved].at.text());

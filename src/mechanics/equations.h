@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/partials.h"
 #include "expression/expression.h"
 #include "mechanics/accumulator.h"
 #include "mechanics/element_trace.h"
@@ -203,6 +204,7 @@ class Equations {
 
   bool wants(PartialBy c) const { return wanted_[static_cast<std::size_t>(c)]; }
   bool wants_partials() const { return wants_any_; }
+  Partials wanted_partials() const { return wants_any_ ? Partials::yes : Partials::no; }
 
   std::int32_t algebraic_row(std::int32_t k) const { return layout_->coordinate_count + k; }
   std::int32_t state_row(std::int32_t k) const {

@@ -43,14 +43,14 @@ PairMotion pair_motion(const Motion& motion, const MarkerPlace& I, const MarkerP
   return p;
 }
 
-PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partials) {
+PairForce spread(const PairMotion& p, const RelativeWrench& w, Partials wanted) {
   PairForce out;
   const Matrix3 R = value(p.axes_J);
   out.force = R * w.force;
   out.torque = R * w.torque;
   out.depends_on_velocity = w.depends_on_rate;
   out.levers = w.levers;
-  if (!with_partials) return out;
+  if (wanted == Partials::no) return out;
 
   // δξ = Rᵀ G δ(p_I, φ_I, p_J, φ_J) with G = (1, 0, −1, Δ×) for d and (0, 1, 0, −1) for φ, all in global components.
   const Matrix3 delta = skew(value(p.delta));
@@ -78,7 +78,7 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, bool with_partial
   return out;
 }
 
-PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_partials) {
+PairForce along_line(const PairMotion& p, const LineMagnitude& F, Partials wanted) {
   PairForce out;
   const Taylor d = norm(p.delta);
   const Vec3<Taylor> line = p.delta / d;
@@ -87,7 +87,7 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
   out.reaction = Reaction::at_J;
   out.components = Components::force;
   out.depends_on_velocity = F.on_rate != 0.0;
-  if (!with_partials) return out;
+  if (wanted == Partials::no) return out;
 
   // δf = u (F_d δd + F_v δd′) + (F/d) (1 − u uᵀ) δΔ with δd′ = u·δΔ′ + u′·δΔ.
   const Matrix3 uu = outer(u, u);
@@ -100,11 +100,11 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, bool with_part
   return out;
 }
 
-PairForce around_origin(double on_distance, bool with_partials) {
+PairForce around_origin(double on_distance, Partials wanted) {
   PairForce out;
   out.reaction = Reaction::at_J;
   out.components = Components::force;
-  if (!with_partials) return out;
+  if (wanted == Partials::no) return out;
   const Matrix3 on_delta = on_distance * Matrix3::identity();
   out.force_on_position.origin_I = on_delta, out.force_on_position.origin_J = -on_delta;
   return out;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/partials.h"
 #include "mechanics/equations.h"
 #include "mechanics/path.h"
 
@@ -57,15 +58,15 @@ struct RelativeWrench {
   bool depends_on_rate = false;
   Levers levers;
 };
-PairForce spread(const PairMotion&, const RelativeWrench&, bool with_partials);
+PairForce spread(const PairMotion&, const RelativeWrench&, Partials wanted);
 
 // A force of magnitude F along the line from J to I and its slopes in distance d and rate d′.
 struct LineMagnitude {
   double value = 0, on_distance = 0, on_rate = 0;
 };
-PairForce along_line(const PairMotion&, const LineMagnitude&, bool with_partials);
+PairForce along_line(const PairMotion&, const LineMagnitude&, Partials wanted);
 // The same of a force that is a multiple of Δ, where Δ = 0: δf = F_d δΔ.
-PairForce around_origin(double on_distance, bool with_partials);
+PairForce around_origin(double on_distance, Partials wanted);
 
 // Adds force, reaction and partials to the balance of both bodies.
 void apply(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);

@@ -19,9 +19,9 @@ TEST(PairSizes, are_no_less_than_the_partials) {
     for (std::size_t c = 0; c < 6; ++c) w.on_pose[r][c] = p.vector().x, w.on_rate[r][c] = p.vector().y;
   }
   // Partials by position have those by rates in them where the model moves.
-  const PairForce by_rates = spread(pair, w, true);
+  const PairForce by_rates = spread(pair, w, Partials::yes);
   w.depends_on_rate = false;
-  const PairForce by_positions = spread(pair, w, true);
+  const PairForce by_positions = spread(pair, w, Partials::yes);
   int blocks = 0;
   for_each_block(pair, p.layout, [&](const PairBlock& b) {
     const BlockPartials rates = partials_by(b, by_rates), positions = partials_by(b, by_positions);
@@ -70,7 +70,7 @@ TEST(PairSizes, tell_what_has_cancelled) {
   RelativeWrench w;
   w.force = -stiffness * value(pair.relative.p);
   for (std::size_t k = 0; k < 3; ++k) w.on_pose[k][k] = -stiffness;
-  const PairForce force = spread(pair, w, true);
+  const PairForce force = spread(pair, w, Partials::yes);
   const double cancelled = stiffness * norm(value(pair.delta));
   ASSERT_LE(largest(force.force_on_position.axes_J), 1e-14 * cancelled);
   // Even without an arm of the marker on its body.
@@ -91,7 +91,7 @@ TEST(PairSizes, tell_what_a_law_has_cancelled_in_its_torque) {
   RelativeWrench w;
   w.force = {3, 4, 0}, w.torque = {1e-15, 0, 2e-16}, w.levers = {5, 2};
   w.on_pose[0][0] = 1e6, w.on_pose[3][0] = 1e-10;
-  const PairForce force = spread(pair, w, true);
+  const PairForce force = spread(pair, w, Partials::yes);
   PairBlock move;
   move.kind = PairBlock::Kind::translation, move.moves = Matrix3::identity();
   // ρ × δF + δρ × F

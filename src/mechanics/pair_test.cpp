@@ -48,12 +48,12 @@ struct Wrench {
   Law force, torque;
   MarkerId i = I, j = J;
 
-  PairForce of(const Paths& p, bool with_partials = true) const {
+  PairForce of(const Paths& p, Partials wanted = Partials::yes) const {
     const PairMotion pair = motion(p);
     RelativeWrench w;
     w.force = force.add_to(pair, 0, w);
     w.torque = torque.add_to(pair, 3, w);
-    return spread(pair, w, with_partials);
+    return spread(pair, w, wanted);
   }
   PairMotion motion(const Paths& p) const { return pair_motion(p.motion, p.layout.marker(i), p.layout.marker(j)); }
 };
@@ -154,7 +154,7 @@ TEST(Pair, a_wrench_without_rates_has_no_partials_by_velocity) {
   r.force = w.force.add_to(w.motion(p), 0, r);
   r.torque = w.torque.add_to(w.motion(p), 3, r);
   r.depends_on_rate = false;
-  const PairForce f = spread(w.motion(p), r, true);
+  const PairForce f = spread(w.motion(p), r, Partials::yes);
   EXPECT_FALSE(f.depends_on_velocity);
   expect_partials(p, f, &BlockPartials::force, 0, "force", [&](const Moment& m) { return w.force.at(m, I, J); });
   expect_partials(p, f, &BlockPartials::torque_by_rate, 1, "torque", [](const Moment&) { return RealVector{}; });
@@ -172,9 +172,9 @@ struct Line {
     const auto distance = [](const Moment& n) { return norm(n.origin(I) - n.origin(J)); };
     return (m.origin(I) - m.origin(J)) / distance(m) * at(distance(m), m.rate(distance));
   }
-  PairForce of(const PairMotion& pair, bool with_partials = true) const {
+  PairForce of(const PairMotion& pair, Partials wanted = Partials::yes) const {
     const Taylor d = norm(pair.delta);
-    return along_line(pair, {at(d.value, d.rate), b + 2 * c * d.value + e * d.rate, e * d.value}, with_partials);
+    return along_line(pair, {at(d.value, d.rate), b + 2 * c * d.value + e * d.rate, e * d.value}, wanted);
   }
 };
 
@@ -198,7 +198,7 @@ TEST(Pair, partials_are_left_out_where_nobody_asks) {
   Paths p;
   const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
   const Wrench w{Law::drawn(p), Law::drawn(p)};
-  for (const PairForce& f : {w.of(p, false), Line{}.of(pair, false)}) {
+  for (const PairForce& f : {w.of(p, Partials::no), Line{}.of(pair, Partials::no)}) {
     for (const MarkerPartials* by :
          {&f.force_on_position, &f.torque_on_position, &f.force_on_velocity, &f.torque_on_velocity}) {
       for (const Matrix3& m : {by->origin_I, by->axes_I, by->origin_J, by->axes_J})

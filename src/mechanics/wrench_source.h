@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/partials.h"
 #include "mechanics/equations.h"
 #include "mechanics/pair.h"
 
@@ -43,7 +44,7 @@ class WrenchSource {
   virtual MarkerId marker_J(std::size_t which) const = 0;
   // The marker along whose axes the statement gives the components.
   virtual MarkerId marker_of_axes(std::size_t which) const { return marker_J(which); }
-  virtual void wrench(const Motion&, std::size_t which, bool with_partials, MarkerWrench&) const = 0;
+  virtual void wrench(const Motion&, std::size_t which, Partials wanted, MarkerWrench&) const = 0;
 
  protected:
   ~WrenchSource() = default;

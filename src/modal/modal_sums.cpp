@@ -170,7 +170,7 @@ Eigen::VectorXd balanced_conditions(const LinearSystem& linear, const EigenSolut
 // ones by no more than rounding of A may have made of it, 1/condition being how near A is to a defective matrix, adds
 // nothing.
 std::vector<std::size_t> spanning(const LinearSystem& linear, const EigenSolution& modes, const ComplexMatrix& shapes) {
-  constexpr double least = 1e-7, unit = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double part_of_its_own = 1e-7, unit = 64 * std::numeric_limits<double>::epsilon();
   std::vector<std::size_t> order, chosen;
   for (const bool real : {false, true}) {
     for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -191,7 +191,7 @@ std::vector<std::size_t> spanning(const LinearSystem& linear, const EigenSolutio
     Eigen::VectorXcd v = shapes.col(static_cast<Index>(k)) / size;
     for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.adjoint() * v).eval();
     const double beside = v.norm();
-    if (!(beside > least) || uncertain(k, beside)) continue;
+    if (!(beside > part_of_its_own) || uncertain(k, beside)) continue;
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols(1) = v.normalized();
     chosen.push_back(k);
@@ -355,10 +355,10 @@ ModalMasses modal_masses(const System& system, const OperatingPoint& op, const L
       }
     }
     // Where a body bends and none moves, its modal coordinates are all that there is.
-    constexpr double still = 1e-9;
+    constexpr double moving_part = 1e-9;
     Complex largest = largest_entry(entries.col(at));
     const Complex bending = largest_entry(beside.col(at));
-    if (std::abs(largest) <= still * std::abs(bending)) largest = bending;
+    if (std::abs(largest) <= moving_part * std::abs(bending)) largest = bending;
     ModalMasses::Row& row = out.modes[k];
     if (!(shapes.col(at).norm() > 1e-7 * before) || largest == Complex(0)) {
       row.kind = before > 0 ? ModalMasses::Row::Kind::repeated : ModalMasses::Row::Kind::still;

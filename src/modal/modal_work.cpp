@@ -74,14 +74,14 @@ std::vector<std::size_t> ModalDistribution::sets_with_rows() const {
 // nothing of the fastest mode, makes of displacements, and in other proportions than these. Where the model moves they
 // are more.
 bool ModalDistribution::rests(std::size_t mode, const Eigen::VectorXcd& z, const Eigen::VectorXcd& velocities) const {
-  constexpr double margin = 10, next_to_nothing = 1e-14, proportional = 1e-3;
+  constexpr double margin = 10, rounding_of_rates = 1e-14, proportional = 1e-3;
   const EigenMode& of = solution_.modes[mode];
   if (of.structural_zero || !(std::abs(of.eigenvalue_hz) <= of.error_bound_hz)) return false;
   const Eigen::VectorXcd u = displacements(z);
   const auto largest = [](const Eigen::VectorXcd& x) { return x.cwiseAbs().maxCoeff(); };
   double fastest = 0;
   for (const EigenMode& m : solution_.modes) fastest = std::max(fastest, std::abs(m.eigenvalue_hz));
-  const double rate = cycle * std::max(margin * of.error_bound_hz, next_to_nothing * fastest);
+  const double rate = cycle * std::max(margin * of.error_bound_hz, rounding_of_rates * fastest);
   return largest(velocities) <= rate * largest(u) &&
          largest(velocities - cycle * of.eigenvalue_hz * u) > proportional * largest(velocities);
 }
@@ -121,7 +121,7 @@ std::vector<ModalRow<double>> ModalDistribution::force_rows(std::size_t mode, Pa
     const WrenchSource& wrenches = *first.kernel->wrenches();
     for (std::size_t which = 0; which < wrenches.wrench_count(set.size()); ++which) {
       w.clear();
-      wrenches.wrench(motion_, which, true, w);
+      wrenches.wrench(motion_, which, Partials::yes, w);
       const WrenchWork::Done done = work.of(w);
       without_cancellation += done.without_cancellation;
       if (!strain) of_unclear += of_rounding.of(w).without_cancellation;

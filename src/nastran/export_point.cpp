@@ -23,9 +23,9 @@ StudyResult<Linearization> linearization_for(const Linearization& of, const Expo
 
 bool moves(const Linearization& of) {
   // A static solution leaves some of its loads, and where there are none something of what its stiffness could hold.
-  constexpr double rounding = 1e-12, balance = 1e-7, unloaded = 1e-10;
+  constexpr double unmoving = 1e-12, balance = 1e-7, unloaded = 1e-10;
   for (std::size_t k = 0; k < of.point.velocity.size(); ++k) {
-    if (std::abs(of.point.velocity[k]) > rounding * of.system->coordinate_scale(static_cast<std::int32_t>(k)))
+    if (std::abs(of.point.velocity[k]) > unmoving * of.system->coordinate_scale(static_cast<std::int32_t>(k)))
       return true;
   }
   // What accelerations take of the forces on each body.

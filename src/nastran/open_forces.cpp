@@ -106,7 +106,7 @@ bool OpenForces::find_place(const ElementLabel& label, Place& place) {
   if (!reported) return false;
   const WrenchSource& source = *reported->source;
   MarkerWrench wrench;
-  source.wrench(motion_, reported->which, true, wrench);
+  source.wrench(motion_, reported->which, Partials::yes, wrench);
   const MarkerId I = source.marker_I(reported->which), J = source.marker_J(reported->which);
   const bool J_fixed = J.valid() && !system_.model().marker(J).floating;
   if (!I.valid() || system_.model().marker(I).floating || !wrench.force.acts_on_J()) return false;
@@ -194,7 +194,7 @@ void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<
 }
 
 void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& entries, Diagnostics& remarks) {
-  constexpr double rounding = 1e-13;  // of sums over the terms of a force
+  constexpr double rounding_of_sums = 1e-13;  // of sums over the terms of a force
   Place place;
   if (!find_place(label, place)) return;
   Bush bush;
@@ -212,7 +212,7 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
     for (std::size_t k = 0; k < 6; ++k) {
       if (place.along_line && k != 0) continue;
       const double v = k < 3 ? at.translation(k, k) : at.rotation(k - 3, k - 3);
-      const double least = rounding * (k < 3 ? at.size_of_translation : at.size_of_rotation);
+      const double least = rounding_of_sums * (k < 3 ? at.size_of_translation : at.size_of_rotation);
       diagonal[k] = v > least ? v : 0;
       if (v < -least)
         negative += fmt::format("{}{}{}", negative.empty() ? "" : ", ", "KB"[kind == MatrixKind::B], k + 1);
@@ -230,7 +230,7 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
     }
     entries.clear();
   }
-  add_up(entries, rounding);
+  add_up(entries, rounding_of_sums);
 }
 
 // --- matrices --------------------------------------------------------------------------------------------------------

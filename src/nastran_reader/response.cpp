@@ -115,13 +115,13 @@ std::vector<int> requested(const Prepared& p, const Subcase& s) {
 }  // namespace
 
 void tell_idle_loads(const Prepared& p, Diagnostics& diagnostics) {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding_of_balance = 1e-12;
   const auto& T = p.elimination.T;
   for (const DynamicLoad& l : p.deck.dynamic_loads) {
     const Eigen::VectorXd loads = excitation(p, l.excitation.id);
     const Eigen::VectorXd acting = (T.transpose() * loads).cwiseAbs();
     const Eigen::VectorXd parts = T.cwiseAbs().transpose() * loads.cwiseAbs();
-    if (!loads.any() || (acting.array() > rounding * parts.array()).any()) continue;
+    if (!loads.any() || (acting.array() > rounding_of_balance * parts.array()).any()) continue;
     diagnostics.warning("idle-load", l.at,
                         fmt::format("RLOAD1 {} excites nothing: constraints hold all that its loads act on", l.id.id));
   }

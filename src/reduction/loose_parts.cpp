@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double rounding = 1e-14;  // of an entry beside the diagonal, in parts of it
+constexpr double rounding_beside_diagonal = 1e-14;  // of an entry beside the diagonal, in parts of it
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::optional<LoosePart> loose_part(const FiniteElementModel& model, NodeLabel s
     bool any = false;
     for (SparseMatrix::InnerIterator it(K, c); it; ++it) {
       const double size = std::sqrt(std::abs(diagonal[c] * diagonal[it.row()]));
-      if (it.value() == 0 || (it.row() != c && std::abs(it.value()) <= rounding * size)) continue;
+      if (it.value() == 0 || (it.row() != c && std::abs(it.value()) <= rounding_beside_diagonal * size)) continue;
       any = true;
       parts.join(node_of[static_cast<std::size_t>(c)], node_of[static_cast<std::size_t>(it.row())]);
     }

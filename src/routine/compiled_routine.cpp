@@ -213,21 +213,20 @@ std::string CompiledRoutine::evaluate_course(std::span<const double> inputs, int
   return failure;
 }
 
-const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read,
-                                                           bool with_partials) const {
+const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<double>& read, Partials wanted) const {
   thread_local Memory memory;
   thread_local std::vector<double> inputs;
   inputs.clear();
   for (std::size_t k = 0; k < read.size(); ++k) inputs.push_back(read[k]);
   if (!knows_mode()) inputs[1] = 0;
   const bool same = memory.serial == serial_ && same_bits(memory.inputs, inputs);
-  if (same && (memory.has_partials || !with_partials)) return memory;
+  if (same && (memory.has_partials || wanted == Partials::no)) return memory;
   memory.serial = serial_;
-  memory.has_partials = with_partials;
+  memory.has_partials = wanted == Partials::yes;
   memory.findings = {};
   memory.inputs = inputs;
   memory.values.resize(values_);
-  if (!with_partials) {
+  if (wanted == Partials::no) {
     evaluate(memory.inputs, memory.values, {}, {});
     return memory;
   }
@@ -257,11 +256,11 @@ const CompiledRoutine::Memory& CompiledRoutine::remembered(const RoutineInputs<d
 }
 
 double CompiledRoutine::value(const RoutineInputs<double>& inputs, std::size_t which) const {
-  return remembered(inputs, false).values[which];
+  return remembered(inputs, Partials::no).values[which];
 }
 
 std::span<const double> CompiledRoutine::partials(const RoutineInputs<double>& inputs, std::size_t which) const {
-  const Memory& memory = remembered(inputs, true);
+  const Memory& memory = remembered(inputs, Partials::yes);
   RoutineFindings* findings = RoutineFindings::current();
   if (findings && memory.inputs[1] == linear_mode) findings->add(memory.findings);
   return std::span(memory.partials).subspan(which * inputs.size(), inputs.size());

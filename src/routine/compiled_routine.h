@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/partials.h"
 #include "dynalin/element_id.h"
 #include "expression/routine.h"
 #include "routine/differences.h"
@@ -117,7 +118,7 @@ class CompiledRoutine final : public Routine {
   // Of a whole GSE: the routines of partial derivatives that it would need and no library has.
   std::vector<std::string_view> absent_partials() const;
   bool may_difference(double mode) const;
-  const Memory& remembered(const RoutineInputs<double>&, bool with_partials) const;
+  const Memory& remembered(const RoutineInputs<double>&, Partials wanted) const;
   const CourseMemory& remembered(const RoutineInputs<Taylor>&) const;
   void fill_course(CourseMemory&) const;
   RoutineContext context(RoutineContext::Phase) const;

@@ -386,7 +386,7 @@ std::size_t degrees_of_freedom(const System& system, const OperatingPoint& op) {
   ConstraintRows rows;
   rows.resize(system.layout());
   system.constraints(system.motion(op), rows);
-  return system.partition(rows, true).independent.size();
+  return system.partition(rows, RowLevel::velocity).independent.size();
 }
 
 }  // namespace dynalin

@@ -15,9 +15,9 @@ constexpr int event_limit = 200;
 constexpr std::int64_t steps_between_events = 20, steps_without_events = 200;
 // Events on next to no way, after which time does not pass in any number of them.
 constexpr int crowd_limit = 10000;
-constexpr double next_to_no_way = 1e-9;   // of the whole time
-constexpr double part_that_jumps = 0.1;   // of a value, beside what changes with the point
-constexpr double next_to_nothing = 1e-9;  // of the largest value so far
+constexpr double next_to_no_way = 1e-9;      // of the whole time
+constexpr double part_that_jumps = 0.1;      // of a value, beside what changes with the point
+constexpr double rounding_of_values = 1e-9;  // of the largest value so far
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void EventDensity::note_jumps(const Layout& layout, const std::vector<double>& v
   const auto note = [&](double from, double to, double& largest, const ElementLabel& owner) {
     const double size = std::max(std::abs(from), std::abs(to));
     largest = std::max(largest, size);
-    if (std::abs(to - from) > std::max(part_that_jumps * size, next_to_nothing * largest))
+    if (std::abs(to - from) > std::max(part_that_jumps * size, rounding_of_values * largest))
       jumping_.insert(owner.full_text());
   };
   for (std::size_t k = 0; k < values.size(); ++k)

@@ -30,7 +30,7 @@ KinematicEquations::KinematicEquations(const System& system) : system_(system), 
 bool KinematicEquations::choose_rows(const OperatingPoint& op) {
   system_.constraints(system_.motion(op), rows_);
   ++evaluations_;
-  partition_ = system_.partition(rows_, true);
+  partition_ = system_.partition(rows_, RowLevel::velocity);
   loose_.resize(0);
   return partition_.independent.empty();
 }

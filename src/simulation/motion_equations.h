@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "base/partials.h"
 #include "simulation/dae_problem.h"
 #include "simulation/error_tolerance.h"
 #include "simulation/events.h"
@@ -59,7 +60,7 @@ class MotionEquations final : public DaeProblem {
  private:
   using Vector6 = std::array<double, 6>;
 
-  void evaluate(double t, std::span<const double> y, std::span<const double> yp, bool with_partials);
+  void evaluate(double t, std::span<const double> y, std::span<const double> yp, Partials wanted);
   void kinematic_residual(std::span<const double> y, std::span<const double> yp, std::span<double> r) const;
   void kinematic_partials(double c, std::span<const double> y);
   void row_partials(std::span<const double> y);

@@ -18,7 +18,7 @@ Partition partition_at(const System& system, const OperatingPoint& op) {
   ConstraintRows rows;
   rows.resize(system.layout());
   system.constraints(system.motion(op), rows);
-  return system.partition(rows, true);
+  return system.partition(rows, RowLevel::velocity);
 }
 
 // The time in which something moves a little; 0 if nothing moves.

@@ -27,9 +27,9 @@ bool OutputTimes::are_distinct() const {
 double OutputTimes::at(std::int64_t k) const { return k >= count_ ? end_ : start_ + step_ * static_cast<double>(k); }
 
 double OutputTimes::next(double now, double step, std::int64_t k) const {
-  constexpr double rounding = 1e-9;  // of sums of steps
+  constexpr double rounding_of_times = 1e-9;  // of sums of steps
   const double target = at(k), left = target - now;
-  if (step >= left * (1 - rounding)) return target;
+  if (step >= left * (1 - rounding_of_times)) return target;
   return now + (2 * step > left ? 0.5 * left : step);
 }
 

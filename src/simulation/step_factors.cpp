@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t analysis_limit = 40;
 // Of the largest entry in the same row, and of that in the same column: one that is less is what cancellation leaves
 // where there is nothing, and nothing to an iteration. Such ones alone are no reason for an analysis.
-constexpr double next_to_nothing = 1e-14;
+constexpr double least_of_column_and_row = 1e-14;
 // The pivots of an earlier matrix serve a later one as long as factors do not grow by more than this over those that
 // they were chosen for.
 constexpr double further_growth = 1e-2;
@@ -90,7 +90,7 @@ bool StepFactors::needs_analysis(const ColumnMatrix& m) const {
     for (std::size_t k = first; k < last; ++k) in_column = std::max(in_column, std::abs(m.value[k]));
     for (std::size_t k = first; k < last; ++k) {
       const double size = std::abs(m.value[k]);
-      if (is_new(k) && size > next_to_nothing * std::min(in_column, in_row[static_cast<std::size_t>(m.row[k])]))
+      if (is_new(k) && size > least_of_column_and_row * std::min(in_column, in_row[static_cast<std::size_t>(m.row[k])]))
         return true;
     }
   }

@@ -10,7 +10,7 @@ namespace dynalin {
 namespace {
 
 // So far may axes be from parallel, by their sine, that are held parallel to rounding.
-constexpr double parallel = 1e-6;
+constexpr double sine_of_parallel = 1e-6;
 
 // An angle that is turned by a rotation of one body in another.
 struct Turning {
@@ -41,7 +41,7 @@ int turns_with(const Turning& a, const Turning& b, const Motion& motion) {
   if (!same && !swapped) return 0;
   const Vector along = a.axis(motion);
   for (const Vector& other : {a.axis(motion, *a.I), b.axis(motion, *b.I), b.axis(motion)})
-    if (!(norm(cross(along, other)) < parallel)) return 0;
+    if (!(norm(cross(along, other)) < sine_of_parallel)) return 0;
   return (dot(along, b.axis(motion)) > 0) == same ? 1 : -1;
 }
 

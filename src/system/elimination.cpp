@@ -10,7 +10,7 @@ namespace dynalin {
 namespace {
 
 // Entries this small, relative to the row as it was given, are rounding left behind by cancellation.
-constexpr double rounding = 1e-14;
+constexpr double left_by_cancellation = 1e-14;
 
 // Columns count by their places in the order.
 struct WorkRow {
@@ -66,7 +66,7 @@ class Eliminator {
     }
     std::sort(row.entries.begin(), row.entries.end());
     row.first_size = row.size;
-    const double cut = rounding * row.size;
+    const double cut = left_by_cancellation * row.size;
     std::erase_if(row.entries, [&](const auto& e) { return std::abs(e.second) <= cut; });
     row.active = !row.entries.empty();
     if (!row.active) return;
@@ -117,7 +117,7 @@ class Eliminator {
   void subtract(std::int32_t r, const WorkRow& pivot, std::int32_t column, double pivot_value) {
     WorkRow& row = rows_[static_cast<std::size_t>(r)];
     const double factor = *row.find(column) / pivot_value;
-    const double cut = rounding * std::max(row.first_size, std::abs(factor) * pivot.first_size);
+    const double cut = left_by_cancellation * std::max(row.first_size, std::abs(factor) * pivot.first_size);
     merged_.resize(row.entries.size() + pivot.entries.size());
     auto out = merged_.begin();
     double size = 0;

@@ -34,9 +34,9 @@ class MumpsMatrix {
   const Problem& problem() const { return id_; }
   // Pivots that are nothing but rounding of the scaled matrix are counted in INFOG(28), not divided by.
   void count_null_pivots() {
-    constexpr double rounding = 1e-14;
+    constexpr double least_pivot = 1e-14;
     control(24) = 1;
-    real_control(3) = -rounding;  // negative: as it stands, not relative to the norm
+    real_control(3) = -least_pivot;  // negative: as it stands, not relative to the norm
   }
 
   // Rows and columns are counted from 0; of a symmetric matrix one triangle.

@@ -91,7 +91,7 @@ class Reading {
 
   Load load(const WrenchSource& wrenches, std::size_t which, const ElementSet& set, const ElementLabel& label) {
     wrench_.clear();
-    wrenches.wrench(motion_, which, false, wrench_);
+    wrenches.wrench(motion_, which, Partials::no, wrench_);
     Load l;
     l.element = label.element();
     l.variant = set.kind().variant;
@@ -112,7 +112,7 @@ class Reading {
     ConstraintRows rows;
     rows.resize(layout_);
     system_.constraints(motion_, rows);
-    const Partition part = system_.partition(rows, true);
+    const Partition part = system_.partition(rows, RowLevel::velocity);
     for (std::size_t k = 0; k < layout_.rows.size(); ++k) {
       const ConstraintRow& row = layout_.rows[k];
       state_.constraints.push_back({row.owner->element(), std::string(row.name), op_.lambda[k] + 0.0, !part.active[k]});
@@ -186,8 +186,8 @@ std::optional<double> variable_value(const System& system, const OperatingPoint&
 
 Triple angles_313(const Matrix3& R) {
   const double sine = std::hypot(R.z.x, R.z.y), theta = std::atan2(sine, R.z.z);
-  constexpr double vertical = 1e-12;
-  if (sine <= vertical) return {std::atan2(R.x.y, R.x.x), R.z.z > 0 ? 0.0 : theta, 0.0};
+  constexpr double sine_of_vertical = 1e-12;
+  if (sine <= sine_of_vertical) return {std::atan2(R.x.y, R.x.x), R.z.z > 0 ? 0.0 : theta, 0.0};
   return {std::atan2(R.z.x, -R.z.y), theta, std::atan2(R.x.z, R.y.z)};
 }
 

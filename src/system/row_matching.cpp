@@ -11,7 +11,7 @@ namespace {
 // column leaves the order that was to keep factors sparse as well. Rows count in units of their largest entry, as they
 // do in KLU.
 std::vector<bool> large_entries(const ColumnMatrix& m) {
-  constexpr double least = 0.1;
+  constexpr double large_part = 0.1;
   std::vector<double> row(static_cast<std::size_t>(m.rows), 0.0);
   for_each_entry(m, [&](std::int32_t r, std::int32_t, double v) {
     double& largest = row[static_cast<std::size_t>(r)];
@@ -26,7 +26,7 @@ std::vector<bool> large_entries(const ColumnMatrix& m) {
     };
     double largest = 0;
     for (std::size_t k = first; k < last; ++k) largest = std::max(largest, size(k));
-    for (std::size_t k = first; k < last; ++k) large[k] = largest > 0 && size(k) >= least * largest;
+    for (std::size_t k = first; k < last; ++k) large[k] = largest > 0 && size(k) >= large_part * largest;
   }
   return large;
 }

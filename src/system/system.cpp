@@ -302,20 +302,18 @@ SparseRow scaled_row(const System& system, std::span<const ConstraintRows::Entry
   return row;
 }
 
-Partition System::partition(const ConstraintRows& rows, bool velocity_rows_too) const {
+Partition System::partition(const ConstraintRows& rows, RowLevel last) const {
+  const auto counts = [&](std::int32_t k) { return last == RowLevel::velocity || rows.level(k) == RowLevel::position; };
   std::vector<SparseRow> scaled(static_cast<std::size_t>(rows.size()));
   for (std::int32_t k = 0; k < rows.size(); ++k) {
-    if (velocity_rows_too || rows.level(k) == RowLevel::position) {
-      scaled[static_cast<std::size_t>(k)] = scaled_row(*this, rows.row(k));
-    }
+    if (counts(k)) scaled[static_cast<std::size_t>(k)] = scaled_row(*this, rows.row(k));
   }
   const std::vector<std::int32_t> order(preference_.rbegin(), preference_.rend());
   const Elimination e = eliminate(std::move(scaled), layout_.coordinate_count, order);
   Partition p;
   for (std::int32_t k = 0; k < rows.size(); ++k) {
-    const bool counts = velocity_rows_too || rows.level(k) == RowLevel::position;
     p.active.push_back(e.pivot_column[static_cast<std::size_t>(k)] >= 0);
-    if (counts && !p.active.back()) p.redundant.push_back(k);
+    if (counts(k) && !p.active.back()) p.redundant.push_back(k);
   }
   for (const std::int32_t c : preference_) {
     if (!e.dependent[static_cast<std::size_t>(c)]) p.independent.push_back(c);

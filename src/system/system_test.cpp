@@ -85,7 +85,7 @@ TEST(System, a_partition_leaves_the_wanted_coordinate_and_names_redundant_rows) 
   ConstraintRows rows;
   rows.resize(one->layout());
   one->constraints(one->motion(one->drawn()), rows);
-  const Partition p = one->partition(rows, false);
+  const Partition p = one->partition(rows, RowLevel::position);
   EXPECT_THAT(p.independent, ElementsAre(6, 7, 8, 5));
   EXPECT_THAT(p.redundant, IsEmpty());
   EXPECT_THAT(p.active, ElementsAre(true, true, true, true, true));
@@ -93,7 +93,7 @@ TEST(System, a_partition_leaves_the_wanted_coordinate_and_names_redundant_rows) 
   const auto two = system_of(bodies + hinge + "JOINT/2, SPHERICAL, I=31, J=5\n");
   rows.resize(two->layout());
   two->constraints(two->motion(two->drawn()), rows);
-  const Partition q = two->partition(rows, false);
+  const Partition q = two->partition(rows, RowLevel::position);
   EXPECT_THAT(q.independent, ElementsAre(6, 7, 8, 5));
   EXPECT_EQ(q.redundant.size(), 3u);
 }

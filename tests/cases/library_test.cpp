@@ -15,6 +15,7 @@
 
 #include "cases/as_others_do.h"
 
+namespace library_test {
 namespace {
 
 using dynalin::Error;
@@ -73,7 +74,7 @@ TEST(Library, finds_the_point_and_the_linear_model) {
   EXPECT_NEAR(modes.modes[0].eigenvalue_hz.imag(), pendulum_hz, 1e-14);
   EXPECT_EQ(modes.modes[0].moves_most, "PART/2 (bob)");
   EXPECT_EQ(modes.shapes.cols(), 1);
-  EXPECT_EQ(study.linearize(point).modes(false).shapes.cols(), 0);
+  EXPECT_EQ(study.linearize(point).modes(dynalin::ModeShapes::left_out).shapes.cols(), 0);
   dynalin::LinearRequest request;
   request.pinput = 1, request.poutput = 1;
   const auto linear = study.linearize(point, request);
@@ -422,7 +423,7 @@ TEST(Library, tables_want_shapes_of_the_model_itself) {
     return std::string();
   };
   EXPECT_EQ(refused(linear.modes()), "");
-  EXPECT_THAT(refused(linear.modes(false)), HasSubstr("they need mode shapes"));
+  EXPECT_THAT(refused(linear.modes(dynalin::ModeShapes::left_out)), HasSubstr("they need mode shapes"));
   auto cut = linear.modes();
   cut.vectors.conservativeResize(Eigen::NoChange, 1);
   EXPECT_THAT(refused(cut), HasSubstr("vectors or shapes of other sizes"));
@@ -568,3 +569,4 @@ TEST(Library, names_statement_and_argument_of_what_is_built_wrongly) {
 }
 
 }  // namespace
+}  // namespace library_test

@@ -136,7 +136,7 @@ void examine(const NamedModel& model, Tally& tally) {
   rows.resize(system->layout());
   system->constraints(system->motion(*op), rows);
   Events events(*system);
-  MotionEquations equations(*system, events, *op, system->partition(rows, true).active, {});
+  MotionEquations equations(*system, events, *op, system->partition(rows, RowLevel::velocity).active, {});
   Differences differences(equations, *system, *op);
   differences.compare(0);
   differences.compare(20);

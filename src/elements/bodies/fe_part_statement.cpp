@@ -162,7 +162,7 @@ bool lies_along_its_nodes(const FePart& f, ElementReader& reader) {
 }
 
 bool lies_in_its_plane(const FePart& f, ElementReader& reader) {
-  constexpr double flat = 1e-6;
+  constexpr double out_of_plane = 1e-6;
   static constexpr std::array<std::string_view, 3> normals = {"x", "y", "z"};
   const std::string name = reader.label().text();
   const auto error = [&](const Span& at, const std::string& what) {
@@ -173,11 +173,11 @@ bool lies_in_its_plane(const FePart& f, ElementReader& reader) {
   };
   for (std::size_t k = 0; k < f.numbers.size(); ++k) {
     const Vector from_first = f.axes * (place_of_node(f, k) - place_of_node(f, 0));
-    if (std::abs(from_first[f.plane->normal]) > flat * norm(from_first)) {
+    if (std::abs(from_first[f.plane->normal]) > out_of_plane * norm(from_first)) {
       error(stated_at(f, "X", k, reader), fmt::format("nodes {} and {}", f.numbers[0], f.numbers[k]));
       return false;
     }
-    if (std::abs((f.axes * axes_of_node(f, k).x)[f.plane->normal]) > flat) {
+    if (std::abs((f.axes * axes_of_node(f, k).x)[f.plane->normal]) > out_of_plane) {
       const bool has_angles = reader.given("PSI") || reader.given("COORDINATES");
       error(has_angles ? stated_at(f, "PSI", k, reader) : reader.at("TYPE"),
             fmt::format("the x axis of node {}", f.numbers[k]));
@@ -200,7 +200,7 @@ void warn_of_unused(ElementReader& reader) {
 
 // Initial velocities out of the plane, in axes that are known while the statement is read.
 void warn_of_velocities_across(const FePart& f, ElementReader& reader) {
-  constexpr double flat = 1e-9;
+  constexpr double part_across = 1e-9;
   const Vector v{f.vx.value_or(0), f.vy.value_or(0), f.vz.value_or(0)};
   const Vector w = f.axes * Vector{f.wx.value_or(0), f.wy.value_or(0), f.wz.value_or(0)};
   Vector in_plane = w;
@@ -212,9 +212,10 @@ void warn_of_velocities_across(const FePart& f, ElementReader& reader) {
                                reader.label().text(), f.type));
   };
   constexpr std::array<std::string_view, 3> along = {"VX", "VY", "VZ"};
-  if (!f.vm.valid() && std::abs(v[f.plane->normal]) > flat * norm(v))
+  if (!f.vm.valid() && std::abs(v[f.plane->normal]) > part_across * norm(v))
     warn({along[f.plane->normal]}, "velocity across the plane");
-  if (!f.wm.valid() && norm(in_plane) > flat * norm(w)) warn({"WX", "WY", "WZ"}, "angular velocity along the plane");
+  if (!f.wm.valid() && norm(in_plane) > part_across * norm(w))
+    warn({"WX", "WY", "WZ"}, "angular velocity along the plane");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/read_file.h"
+#include "flexible/body_file_type.h"
 
 namespace dynalin {
 

@@ -233,11 +233,11 @@ class MarkerSet final : public TypedSet<ReadMarker> {
 
   // Who leaves QP out may mean the node.
   void warn_of_place(std::size_t k, const BeamBody& beam, std::size_t node, Diagnostics& diagnostics) const {
-    constexpr double rounding = 1e-9;
+    constexpr double same_place = 1e-9;
     const Vector& at = beam.places[node];
     double extent = 0;
     for (const Vector& place : beam.places) extent = std::max(extent, norm(place));
-    if (norm(at) <= rounding * extent) return;
+    if (norm(at) <= same_place * extent) return;
     diagnostics.warning(
         "marker-off-node", labels[k].at,
         fmt::format(

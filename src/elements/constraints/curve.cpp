@@ -165,12 +165,12 @@ class CurveSet final : public TypedSet<Curve> {
 
   // With its first two derivatives.
   bool closes(const CurveRoutine& called, std::size_t k, Diagnostics& diagnostics) const {
-    constexpr double close = 1e-6;
+    constexpr double largest_gap = 1e-6;
     const double first = called.statement().first, last = called.statement().last;
     for (int order = 0; order < 3; ++order) {
       const Vec3<double> a = called.derivative(first, order), b = called.derivative(last, order);
       const double size = std::max(norm(called.derivative(first, 1)) * (last - first), norm(a));
-      if (norm(b - a) <= close * size) continue;
+      if (norm(b - a) <= largest_gap * size) continue;
       diagnostics.error(
           "curve-data", labels[k].at,
           fmt::format("{} is CLOSED, but {} at its last parameter, {:g}, is {:.6g} away from that at its first",

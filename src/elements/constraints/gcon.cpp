@@ -70,7 +70,7 @@ class GeneralConstraintKernel final : public Kernel, public WrenchSource {
   std::size_t element_of_wrench(std::size_t which) const override { return reported_[which].first; }
   MarkerId marker_I(std::size_t which) const override { return reported_[which].second; }
   MarkerId marker_J(std::size_t) const override { return global_frame; }
-  void wrench(const Motion& motion, std::size_t which, bool, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t which, Partials, MarkerWrench& out) const override {
     const Row& r = rows_[reported_[which].first];
     ConstraintRows gradient;
     gradient.resize(*layout_, 1);

@@ -177,9 +177,9 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return driven_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return driven_[k].element.j; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     const Driven& d = driven_[k];
-    d.displacement.wrench(motion, lambda(d, motion), d.row, with_partials, out);
+    d.displacement.wrench(motion, lambda(d, motion), d.row, wanted, out);
   }
   void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     ExpressionScratch scratch;

@@ -103,7 +103,6 @@ void BeamBodyKernel::constraints(const Motion& motion, ConstraintRows& rows) con
 }
 
 void BeamBodyKernel::equations(const Motion& motion, Equations& eq) const {
-  const bool partials = eq.wants_partials();
   BeamForces f;
   for (const BeamBody& b : beams_) {
     eq.begin_element(eq.layout().body(b.nodes.front()).label);
@@ -111,13 +110,13 @@ void BeamBodyKernel::equations(const Motion& motion, Equations& eq) const {
       const auto at = b.columns(eq.layout(), e);
       const BeamElement& element = *(*b.elements)[e];
       const std::size_t n = element.coordinates();
-      element.forces(b.motion(motion, e), gravity_, partials, f);
+      element.forces(b.motion(motion, e), gravity_, eq.wanted_partials(), f);
       for (std::size_t k = 0; k < n; ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         eq.add_residual(at[k], f.elastic(i));
         eq.add_residual(at[k], f.inertia(i));
       }
-      if (!partials) continue;
+      if (!eq.wants_partials()) continue;
       add(PartialBy::position, f.stiffness, n, at, eq);
       add(PartialBy::position, f.by_position, n, at, eq);
       if (element.damped()) add(PartialBy::damping, f.damping, n, at, eq);

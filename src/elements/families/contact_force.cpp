@@ -238,13 +238,13 @@ ContactKernel::ContactKernel(const std::vector<ContactForce>& laws, const std::v
   }
 }
 
-PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, bool with_partials) {
+PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, Partials wanted) {
   const ContactForce& c = *p.law;
   const bool at_rest = is_equilibrium(motion.mode);
   const bool rubs = c.friction && (c.friction_in_statics || !at_rest);
   RelativeWrench w;
   w.depends_on_rate = true;
-  if (with_partials && is_closed(c, plain(pair))) {
+  if (wanted == Partials::yes && is_closed(c, plain(pair))) {
     const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs, motion);
     w.levers = sum.levers;
     for (std::size_t r = 0; r < 6; ++r) {
@@ -255,11 +255,11 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
         w.on_rate[r][k] = component.partial[6 + k];
       }
     }
-  } else if (!with_partials) {
+  } else if (wanted == Partials::no) {
     const ForceAndTorque<double> sum = contact_wrench(c, pair.relative, rubs, motion);
     w.force = sum.force, w.torque = sum.torque, w.levers = sum.levers;
   }
-  return spread(pair, w, with_partials);
+  return spread(pair, w, wanted);
 }
 
 void ContactKernel::equations(const Motion& motion, Equations& eq) const {
@@ -267,13 +267,13 @@ void ContactKernel::equations(const Motion& motion, Equations& eq) const {
     const Placed& p = forces_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
+    apply(pair, force_of(p, pair, motion, eq.wanted_partials()), eq);
   }
 }
 
-void ContactKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+void ContactKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *forces_[k].I, *forces_[k].J);
-  out.force = force_of(forces_[k], out.pair, motion, with_partials);
+  out.force = force_of(forces_[k], out.pair, motion, wanted);
 }
 
 void ContactKernel::switches(const Motion& motion, ExpressionScratch&, SwitchList& list) const {

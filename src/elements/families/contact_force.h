@@ -47,7 +47,7 @@ class ContactKernel final : public Kernel, public WrenchSource, public SwitchSou
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].law->j; }
-  void wrench(const Motion&, std::size_t k, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t k, Partials wanted, MarkerWrench&) const override;
 
   const SwitchSource* kinks() const override { return this; }
   // Where surfaces meet or part, where they hold each other no more, and where a plane ends.
@@ -62,7 +62,7 @@ class ContactKernel final : public Kernel, public WrenchSource, public SwitchSou
     const ContactForce* law;   // of the model
     const MarkerPlace *I, *J;  // of the layout
   };
-  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
+  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
   std::vector<Placed> forces_;
   const std::vector<ElementLabel>* labels_;
 };

@@ -149,7 +149,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       const Nested work = reaction_work(p, pair, motion);
       const Reaction at_I = reaction_at_I(work);
-      apply_partials(pair, spread(pair, relative_wrench(at_I), true), eq);
+      apply_partials(pair, spread(pair, relative_wrench(at_I), Partials::yes), eq);
       const Matrix3 R = value(pair.axes_J);
       for (std::size_t a = 0; a < m; ++a) {
         apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), true, PartialBy::position,
@@ -182,7 +182,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return contacts_[k].contact.touch_I; }
   MarkerId marker_J(std::size_t k) const override { return contacts_[k].contact.touch_J; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     const Placed& p = contacts_[k];
     out.pair = pair_motion(motion, p.I, p.J);
     const RelativeFrame<Nested> I = path::nested<seeds>(out.pair.relative);
@@ -198,11 +198,11 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       return reaction;
     };
     const Reaction reaction = at_contact(work);
-    out.force = spread(out.pair, relative_wrench(reaction), with_partials);
+    out.force = spread(out.pair, relative_wrench(reaction), wanted);
     // Both markers are at the point of contact.
     out.pair.delta = {};
     out.J_follows_I = true;
-    if (!with_partials) return;
+    if (wanted == Partials::no) return;
     const Matrix3 R = value(out.pair.axes_J);
     for (std::size_t r = 0; r < n; ++r) {
       const Reaction unit = at_contact(rows[r]);

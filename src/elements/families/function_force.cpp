@@ -15,14 +15,14 @@ void FunctionForceKernel::bind(Binder& binder) {
   for (Force& f : forces_) f.magnitude.bind(binder);
 }
 
-PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude, bool with_partials) {
+PairForce FunctionForceKernel::force_of(const Force& f, const PairMotion& pair, double magnitude, Partials wanted) {
   if (f.element.direction == Direction::along_line) {
-    return along_line(pair, {magnitude, 0.0, 0.0}, with_partials);
+    return along_line(pair, {magnitude, 0.0, 0.0}, wanted);
   }
   const bool pushes = f.element.direction == Direction::along_z;
   RelativeWrench w;
   (pushes ? w.force : w.torque).z = magnitude;
-  PairForce force = spread(pair, w, with_partials);
+  PairForce force = spread(pair, w, wanted);
   force.components = pushes ? Components::force : Components::torque;
   if (f.element.action_only) force.reaction = Reaction::none;
   return force;
@@ -33,20 +33,20 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element(*f.element.label);
     f.magnitude.add_equation(motion, eq);
     const PairMotion pair = pair_motion(motion, *f.I, *f.J);
-    const PairForce force = force_of(f, pair, f.magnitude.at(motion), eq.wants_partials());
+    const PairForce force = force_of(f, pair, f.magnitude.at(motion), eq.wanted_partials());
     apply(pair, force, eq);
     if (!eq.wants(PartialBy::algebraic)) continue;
-    const PairForce one = force_of(f, pair, 1.0, false);
+    const PairForce one = force_of(f, pair, 1.0, Partials::no);
     apply_column(pair, one.force, one.torque, force.acts_on_J(), PartialBy::algebraic, f.magnitude.column(), eq);
   }
 }
 
-void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+void FunctionForceKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, *f.I, *f.J);
-  out.force = force_of(f, out.pair, f.magnitude.at(motion), with_partials);
-  if (!with_partials) return;
-  const PairForce one = force_of(f, out.pair, 1.0, false);
+  out.force = force_of(f, out.pair, f.magnitude.at(motion), wanted);
+  if (wanted == Partials::no) return;
+  const PairForce one = force_of(f, out.pair, 1.0, Partials::no);
   out.scalars.push_back({PartialBy::algebraic, f.magnitude.column(), one.force, one.torque});
 }
 

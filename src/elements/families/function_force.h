@@ -34,7 +34,7 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
-  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t, Partials wanted, MarkerWrench&) const override;
   void undefined_values(const Motion&, UndefinedValues&) const override;
 
  private:
@@ -43,7 +43,7 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
     DefinedUnknown magnitude;
   };
-  static PairForce force_of(const Force&, const PairMotion&, double magnitude, bool with_partials);
+  static PairForce force_of(const Force&, const PairMotion&, double magnitude, Partials wanted);
   std::vector<Force> forces_;
 };
 

@@ -130,7 +130,7 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
     for (const Placed& p : eq.share(joints_)) {
       eq.begin_constraint(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
-      apply_partials(pair, spread(pair, reaction_of(p, pair, motion), true), eq);
+      apply_partials(pair, spread(pair, reaction_of(p, pair, motion), Partials::yes), eq);
     }
   }
   std::size_t shares() const override { return shares_of(joints_.size()); }
@@ -158,11 +158,11 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return joints_[k].joint.i; }
   MarkerId marker_J(std::size_t k) const override { return joints_[k].joint.j; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     const Placed& p = joints_[k];
     out.pair = pair_motion(motion, p.I, p.J);
-    out.force = spread(out.pair, reaction_of(p, out.pair, motion), with_partials);
-    if (!with_partials) return;
+    out.force = spread(out.pair, reaction_of(p, out.pair, motion), wanted);
+    if (wanted == Partials::no) return;
     const auto rows = p.joint.rows(path::nested(out.pair.relative));
     for (std::size_t r = 0; r < n; ++r) add_multiplier(rows[r], p.first_row + static_cast<std::int32_t>(r), out);
   }

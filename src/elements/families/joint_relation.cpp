@@ -95,14 +95,14 @@ std::vector<double> JointRelationKernel::slopes(const Relation& r, const Motion&
   return slope;
 }
 
-void JointRelationKernel::wrench(const Motion& motion, std::size_t which, bool, MarkerWrench& out) const {
+void JointRelationKernel::wrench(const Motion& motion, std::size_t which, Partials, MarkerWrench& out) const {
   const Joint& joint = joints_[which];
   const Relation& r = relations_[joint.relation];
   const double lambda = motion.lambda[static_cast<std::size_t>(r.row)];
   Vector force, torque;
   const std::vector<double> slope = slopes(r, motion);
   for (std::size_t k = joint.first_term; k < joint.first_term + joint.terms; ++k) {
-    r.terms[k].first.wrench(motion, slope[k] * lambda, r.row, false, out);
+    r.terms[k].first.wrench(motion, slope[k] * lambda, r.row, Partials::no, out);
     force += out.force.force, torque += out.force.torque;
   }
   out.force.force = force, out.force.torque = torque;

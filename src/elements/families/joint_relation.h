@@ -43,7 +43,7 @@ class JointRelationKernel final : public Kernel, public WrenchSource, public Row
   std::size_t element_of_wrench(std::size_t which) const override { return joints_[which].relation; }
   MarkerId marker_I(std::size_t which) const override { return joints_[which].i; }
   MarkerId marker_J(std::size_t which) const override { return joints_[which].j; }
-  void wrench(const Motion&, std::size_t which, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t which, Partials wanted, MarkerWrench&) const override;
 
  private:
   struct Relation {

@@ -32,16 +32,16 @@ class LineForceKernel final : public Kernel, public WrenchSource {
       const Force& f = forces_[k];
       const PairMotion pair = pair_motion(motion, f.I, f.J);
       eq.begin_element((*labels_)[k]);
-      apply(pair, force_of(f, pair, eq.wants_partials()), eq);
+      apply(pair, force_of(f, pair, eq.wanted_partials()), eq);
     }
   }
 
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.j; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     out.pair = pair_motion(motion, forces_[k].I, forces_[k].J);
-    out.force = force_of(forces_[k], out.pair, with_partials);
+    out.force = force_of(forces_[k], out.pair, wanted);
   }
   void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
@@ -67,12 +67,12 @@ class LineForceKernel final : public Kernel, public WrenchSource {
   static bool is_smooth(const LineMagnitude& where_they_meet) {
     return where_they_meet.value == 0.0 && where_they_meet.on_rate == 0.0;
   }
-  static PairForce force_of(const Force& f, const PairMotion& pair, bool with_partials) {
+  static PairForce force_of(const Force& f, const PairMotion& pair, Partials wanted) {
     const Taylor d = norm(pair.delta);
     if (d.value == 0.0) {
-      if (const LineMagnitude F = law(f, 0.0, 0.0); is_smooth(F)) return around_origin(F.on_distance, with_partials);
+      if (const LineMagnitude F = law(f, 0.0, 0.0); is_smooth(F)) return around_origin(F.on_distance, wanted);
     }
-    return along_line(pair, law(f, d.value, d.rate), with_partials);
+    return along_line(pair, law(f, d.value, d.rate), wanted);
   }
   std::vector<Force> forces_;
   const std::vector<ElementLabel>* labels_;
@@ -95,16 +95,16 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       const Torque& t = torques_[k];
       const PairMotion pair = pair_motion(motion, t.I, t.J);
       eq.begin_element((*labels_)[k]);
-      apply(pair, torque_of(t, pair, motion, eq.wants_partials()), eq);
+      apply(pair, torque_of(t, pair, motion, eq.wanted_partials()), eq);
     }
   }
 
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return torques_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return torques_[k].element.j; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     out.pair = pair_motion(motion, torques_[k].I, torques_[k].J);
-    out.force = torque_of(torques_[k], out.pair, motion, with_partials);
+    out.force = torque_of(torques_[k], out.pair, motion, wanted);
   }
 
  private:
@@ -113,7 +113,7 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
     MarkerPlace I, J;
     std::int32_t memory;
   };
-  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, bool with_partials) {
+  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, Partials wanted) {
     const auto I = path::seeded<12>(pair.relative);
     Dual<12> angle = joint_rotation(I).value;
     angle.value = unwrapped(angle.value, motion.memory[static_cast<std::size_t>(t.memory)]);
@@ -128,7 +128,7 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       w.on_pose[5][k] = torque.partial[k];
       w.on_rate[5][k] = torque.partial[6 + k];
     }
-    PairForce force = spread(pair, w, with_partials);
+    PairForce force = spread(pair, w, wanted);
     force.components = Components::torque;
     return force;
   }

@@ -26,12 +26,12 @@ constexpr std::array<Angle, 3> angles_read = {{{"AX", 'z', 'x'}, {"AY", 'z', 'y'
 
 // Of those that the law reads the first for which both arguments of ATAN2 vanish: below that they are roundings.
 const Angle* undefined_angle(const LinearWrench& law, const RelativeFrame<double>& I) {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding_of_axes = 1e-12;
   const std::array<double, 3> sizes = {std::hypot(I.z.y, I.z.z), std::hypot(I.z.x, I.z.z), std::hypot(I.x.y, I.x.x)};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto reads = [&](const LinearWrench::Coupling& c) { return c.column == 3 + k; };
     const bool read = law.routine || std::ranges::any_of(law.couplings, reads);
-    if (read && sizes[k] < rounding) return &angles_read[k];
+    if (read && sizes[k] < rounding_of_axes) return &angles_read[k];
   }
   return nullptr;
 }
@@ -50,12 +50,12 @@ RoutineInputs<double> inputs(const Read& read) {
   return {read, order};
 }
 
-void add_routine(const LinearWrench& law, const RelativeDisplacement& d, const Motion& motion, bool with_partials,
+void add_routine(const LinearWrench& law, const RelativeDisplacement& d, const Motion& motion, Partials wanted,
                  Array6& load, RelativeWrench& w) {
   const Read read = read_by_routine(law, d, motion);
   for (std::size_t r = 0; r < 6; ++r) {
     load[r] = law.routine->value(inputs(read), r);
-    if (!with_partials) continue;
+    if (wanted == Partials::no) continue;
     const std::span<const double> slope = law.routine->partials(inputs(read), r);
     for (std::size_t c = 0; c < 6; ++c) {
       for (std::size_t k = 0; k < 6; ++k) {
@@ -103,9 +103,10 @@ bool begins_at_nothing(const Model& model, const LinearWrench& law) {
   const auto is_zero = [](double x) { return x == 0; };
   if (law.routine || !std::ranges::all_of(law.force, is_zero) || !std::ranges::all_of(law.length, is_zero))
     return false;
-  constexpr double rounding = 1e-12;
+  constexpr double rounding_of_places = 1e-12;
   const MarkerPlace& J = model.marker(law.j).place;
-  return norm(drawn_frame(model, law.i, law.j).p) <= rounding * (norm(model.body(J.body).pose.r) + norm(J.p_BM));
+  return norm(drawn_frame(model, law.i, law.j).p) <=
+         rounding_of_places * (norm(model.body(J.body).pose.r) + norm(J.p_BM));
 }
 
 }  // namespace
@@ -184,8 +185,7 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   }
 }
 
-PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion,
-                                       bool with_partials) {
+PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, Partials wanted) {
   const RelativeDisplacement d = relative_displacement(pair, p.angles.at(motion));
   RelativeWrench w;
   w.depends_on_rate = true;
@@ -197,10 +197,10 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
       w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
     }
   }
-  if (p.law->routine) add_routine(*p.law, d, motion, with_partials, load, w);
+  if (p.law->routine) add_routine(*p.law, d, motion, wanted, load, w);
   w.force = {load[0], load[1], load[2]};
   w.torque = {load[3], load[4], load[5]};
-  return spread(pair, w, with_partials);
+  return spread(pair, w, wanted);
 }
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
@@ -208,13 +208,13 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
     const Placed& p = laws_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    apply(pair, force_of(p, pair, motion, eq.wants_partials()), eq);
+    apply(pair, force_of(p, pair, motion, eq.wanted_partials()), eq);
   }
 }
 
-void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
-  out.force = force_of(laws_[k], out.pair, motion, with_partials);
+  out.force = force_of(laws_[k], out.pair, motion, wanted);
 }
 
 void LinearWrenchKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {

@@ -79,7 +79,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return laws_[k].law->i; }
   MarkerId marker_J(std::size_t k) const override { return laws_[k].law->j; }
-  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t, Partials wanted, MarkerWrench&) const override;
   void undefined_values(const Motion&, UndefinedValues&) const override;
 
  private:
@@ -88,7 +88,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
     CountedAngles angles;
   };
-  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, bool with_partials);
+  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
   std::vector<Placed> laws_;
   const std::vector<ElementLabel>* labels_;
 };

@@ -53,7 +53,7 @@ std::optional<double> NodalBody::own_work(const Motion& motion, PartialBy by, co
   double sum = 0;
   BeamForces f;
   for (std::size_t e = 0; e < elements(); ++e) {
-    element(e).forces(beam_->motion(motion, e), {}, true, f);
+    element(e).forces(beam_->motion(motion, e), {}, Partials::yes, f);
     const auto own = rows_of(beam_->columns(*layout_, e), u);
     const BeamMatrix& m = by == PartialBy::position ? f.stiffness : f.damping;
     for (const BeamVector& part : {BeamVector(own.real()), BeamVector(own.imag())}) sum += part.dot(m * part);

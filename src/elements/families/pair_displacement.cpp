@@ -23,14 +23,14 @@ void PairDisplacement::add_to_row(const Motion& motion, double factor, std::int3
 
 void PairDisplacement::add_reaction_partials(const Motion& motion, double lambda, Equations& eq) const {
   const PairMotion pair = pair_motion(motion, I_, J_);
-  apply_partials(pair, spread(pair, reaction_of(kind_, pair, lambda), true), eq);
+  apply_partials(pair, spread(pair, reaction_of(kind_, pair, lambda), Partials::yes), eq);
 }
 
-void PairDisplacement::wrench(const Motion& motion, double lambda, std::int32_t row, bool with_partials,
+void PairDisplacement::wrench(const Motion& motion, double lambda, std::int32_t row, Partials wanted,
                               MarkerWrench& out) const {
   out.pair = pair_motion(motion, I_, J_);
-  out.force = spread(out.pair, reaction_of(kind_, out.pair, lambda), with_partials);
-  if (with_partials) add_multiplier(displacement(kind_, path::nested(out.pair.relative)), row, out);
+  out.force = spread(out.pair, reaction_of(kind_, out.pair, lambda), wanted);
+  if (wanted == Partials::yes) add_multiplier(displacement(kind_, path::nested(out.pair.relative)), row, out);
 }
 
 std::optional<JointFreedom> joint_freedom(const Model& model, const ElementLabel& user, JointRef joint,

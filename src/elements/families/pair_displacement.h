@@ -54,7 +54,7 @@ class PairDisplacement {
   // Adds the variation of the force that a multiplier `lambda` exerts through the displacement.
   void add_reaction_partials(const Motion&, double lambda, Equations&) const;
   // The force itself on I, with its dependence on the multiplier of `row`.
-  void wrench(const Motion&, double lambda, std::int32_t row, bool with_partials, MarkerWrench&) const;
+  void wrench(const Motion&, double lambda, std::int32_t row, Partials wanted, MarkerWrench&) const;
 
  private:
   MarkerPlace I_, J_;

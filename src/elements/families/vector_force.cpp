@@ -32,7 +32,7 @@ void VectorForceKernel::bind(Binder& binder) {
   }
 }
 
-void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+void VectorForceKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   const Force& f = forces_[k];
   out.pair = pair_motion(motion, f.I, f.J);
   // The floating marker is where I is.
@@ -45,12 +45,12 @@ void VectorForceKernel::wrench(const Motion& motion, std::size_t k, bool with_pa
     const Vector e = axes[c.axis % 3];
     const double w = c.value.at(motion);
     (c.axis < 3 ? out.force.force : out.force.torque) += w * e;
-    if (with_partials) {
+    if (wanted == Partials::yes) {
       out.scalars.push_back(
           {PartialBy::algebraic, c.value.column(), c.axis < 3 ? e : Vector{}, c.axis < 3 ? Vector{} : e});
     }
   }
-  if (with_partials) out.turns.push_back({&f.RM, -skew(out.force.force), -skew(out.force.torque)});
+  if (wanted == Partials::yes) out.turns.push_back({&f.RM, -skew(out.force.force), -skew(out.force.torque)});
 }
 
 void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
@@ -60,7 +60,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element((*labels_)[k]);
     for (const Component& c : f.components) c.value.add_equation(motion, eq);
     w.clear();
-    wrench(motion, k, eq.wants_partials(), w);
+    wrench(motion, k, eq.wanted_partials(), w);
     apply(w.pair, w.force, eq);
     if (!eq.wants_partials()) continue;
     for (const MarkerWrench::Scalar& s : w.scalars) {
@@ -87,7 +87,8 @@ bool is_nothing(const Expression& e) {
 
 }  // namespace
 
-void take_components(const WrittenVectorForce& w, bool forces, bool torques, VectorForce& out, ElementReader& reader) {
+void take_components(const WrittenVectorForce& w, Components components, VectorForce& out, ElementReader& reader) {
+  const bool forces = components != Components::torque, torques = components != Components::force;
   out.i = w.i, out.jfloat = w.jfloat, out.rm = w.rm;
   const std::string name = reader.label().text();
   static constexpr std::array<std::string_view, 6> names = {"FX", "FY", "FZ", "TX", "TY", "TZ"};

@@ -32,7 +32,7 @@ class VectorForceKernel final : public Kernel, public WrenchSource {
   MarkerId marker_I(std::size_t k) const override { return forces_[k].element.i; }
   MarkerId marker_J(std::size_t k) const override { return forces_[k].element.jfloat; }
   MarkerId marker_of_axes(std::size_t k) const override { return forces_[k].element.rm; }
-  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t, Partials wanted, MarkerWrench&) const override;
   void undefined_values(const Motion&, UndefinedValues&) const override;
 
  private:
@@ -57,27 +57,24 @@ struct WrittenVectorForce {
   Expression function;
 };
 
-// Takes over what is written; `forces` and `torques` say which components the statement has.
-void take_components(const WrittenVectorForce&, bool forces, bool torques, VectorForce&, ElementReader&);
+// Takes over what is written of the components that the statement has.
+void take_components(const WrittenVectorForce&, Components, VectorForce&, ElementReader&);
 void check_vector_force(Model&, const ElementLabel&, const VectorForce&, Diagnostics&);
 
-// E: WrittenVectorForce with arguments, keyword, summary, has_forces, has_torques.
+// E: WrittenVectorForce with arguments, keyword, summary, components.
 template <class E>
 class VectorForceSet final : public TypedSet<VectorForce> {
  public:
   using TypedSet::TypedSet;
   void read(std::size_t k, ElementReader& reader) override {
     E written;
-    if (read_arguments(written, reader)) take_components(written, E::has_forces, E::has_torques, elements[k], reader);
+    if (read_arguments(written, reader)) take_components(written, E::components, elements[k], reader);
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) check_vector_force(model, labels[k], elements[k], diagnostics);
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
-    constexpr Components components = !E::has_torques  ? Components::force
-                                      : !E::has_forces ? Components::torque
-                                                       : Components::force_and_torque;
-    return std::make_unique<VectorForceKernel>(elements, labels, components, layout);
+    return std::make_unique<VectorForceKernel>(elements, labels, E::components, layout);
   }
 };
 

@@ -68,7 +68,7 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
       std::vector<PairMotion>& spans = eq.pair_scratch.pairs;
       const Tension tension = look(p, motion, spans);
       for (std::size_t k = 0; k < spans.size(); ++k) {
-        apply(spans[k], pull(spans[k], tension, eq.wants_partials()), eq);
+        apply(spans[k], pull(spans[k], tension, eq.wanted_partials()), eq);
         if (!eq.wants_partials()) continue;
         for (std::size_t l = 0; l < spans.size(); ++l) {
           if (l != k) apply_cross_partials(spans[k], spans[l], change(spans[k], spans[l], tension), eq);
@@ -83,13 +83,13 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
   std::size_t element_of_wrench(std::size_t w) const override { return spans_[w].first; }
   MarkerId marker_I(std::size_t w) const override { return marker(w, 1); }
   MarkerId marker_J(std::size_t w) const override { return marker(w, 0); }
-  void wrench(const Motion& motion, std::size_t w, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t w, Partials wanted, MarkerWrench& out) const override {
     const auto [at, k] = spans_[w];
     std::vector<PairMotion>& spans = out.scratch.pairs;
     const Tension tension = look(cables_[at], motion, spans);
     out.pair = spans[k];
-    out.force = pull(spans[k], tension, with_partials);
-    if (!with_partials) return;
+    out.force = pull(spans[k], tension, wanted);
+    if (wanted == Partials::no) return;
     for (std::size_t l = 0; l < spans.size(); ++l) {
       if (l == k) continue;
       const PairForce f = change(spans[k], spans[l], tension);
@@ -152,8 +152,8 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
     return law > 0 ? Tension{law, law, c.stiffness, c.damping, is_damped} : Tension{law, 0, 0, 0, is_damped};
   }
   // On the second marker of a span; its partials are those with the length of the span itself.
-  static PairForce pull(const PairMotion& span, const Tension& t, bool with_partials) {
-    PairForce f = along_line(span, {-t.value, -t.on_length, -t.on_rate}, with_partials);
+  static PairForce pull(const PairMotion& span, const Tension& t, Partials wanted) {
+    PairForce f = along_line(span, {-t.value, -t.on_length, -t.on_rate}, wanted);
     f.depends_on_velocity = t.is_damped;
     return f;
   }

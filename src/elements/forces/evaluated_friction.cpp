@@ -93,7 +93,7 @@ EvaluatedFriction EvaluatedFriction::at(const PlacedFriction& p, const PairMotio
 
   // The reaction on I in the axes of J: a function of the pose and linear in the multipliers.
   MarkerWrench reaction;
-  p.joint->wrench(motion, p.which, true, reaction);
+  p.joint->wrench(motion, p.which, Partials::yes, reaction);
   const Matrix3 R = value(reaction.pair.axes_J), back = transpose(R);
   const auto seen_from_J = [&](const Vector& v, const MarkerPartials& by) {
     const Vector at_J = back * v;

@@ -59,7 +59,7 @@ void JointFrictionKernel::by_motion_and_reaction(const D& value, const Evaluated
   carrier.depends_on_rate = true;
   for (std::size_t k = 0; k < 6; ++k)
     carrier.on_pose[0][k] = value.partial[k], carrier.on_rate[0][k] = value.partial[6 + k];
-  const PairForce spread_out = spread(pair, carrier, true);
+  const PairForce spread_out = spread(pair, carrier, Partials::yes);
   const Vector x = dynalin::value(pair.axes_J).x;
   for_each_block(pair, layout, [&](const PairBlock& b) {
     const BlockPartials on = partials_by(b, spread_out);
@@ -93,7 +93,7 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     const JointFriction& f = *p.element;
     eq.begin_element((*labels_)[k]);
     w.clear();
-    wrench(motion, k, eq.wants_partials(), w);
+    wrench(motion, k, eq.wanted_partials(), w);
     const bool acts = p.joint && !(f.rests_in_statics && is_equilibrium(motion.mode));
     const Evaluated at = acts ? Evaluated::at(p, w.pair, motion) : Evaluated::inactive(p, motion);
     for (std::size_t c = 0; c < f.component_count(); ++c) {
@@ -133,7 +133,7 @@ void JointFrictionKernel::remember(const Motion& motion, Memory& memory) const {
   }
 }
 
-void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const {
+void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   const Placed& p = placed_[k];
   const JointFriction& f = *p.element;
   out.pair = pair_motion(motion, *p.I, *p.J);
@@ -155,9 +155,9 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, bool with_
       }
     }
     sum.force += force * w, sum.torque += torque * w;
-    if (with_partials) out.scalars.push_back({PartialBy::algebraic, a, R * force, R * torque});
+    if (wanted == Partials::yes) out.scalars.push_back({PartialBy::algebraic, a, R * force, R * torque});
   }
-  out.force = spread(out.pair, sum, with_partials);
+  out.force = spread(out.pair, sum, wanted);
   out.force.components = f.surface == FrictionSurface::sleeve ? Components::force_and_torque
                          : f.pushes()                         ? Components::force
                                                               : Components::torque;
@@ -253,7 +253,7 @@ void JointFrictionKernel::take_rounding(const Motion& motion, std::span<const do
     known[0] = known[1] = 0;
     if (!p.joint) continue;
     MarkerWrench reaction;
-    p.joint->wrench(motion, p.which, true, reaction);
+    p.joint->wrench(motion, p.which, Partials::yes, reaction);
     for (const MarkerWrench::Scalar& s : reaction.scalars) {
       const double rounded = of_multipliers[static_cast<std::size_t>(s.column)];
       known[0] += norm(s.force) * rounded, known[1] += norm(s.torque) * rounded;

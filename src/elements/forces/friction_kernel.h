@@ -28,7 +28,7 @@ class JointFrictionKernel final : public Kernel,
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return placed_[k].element->i; }
   MarkerId marker_J(std::size_t k) const override { return placed_[k].element->j; }
-  void wrench(const Motion&, std::size_t, bool with_partials, MarkerWrench&) const override;
+  void wrench(const Motion&, std::size_t, Partials wanted, MarkerWrench&) const override;
   void remember(const Motion&, Memory&) const override;
   std::string domain_violation(const Motion&) const override;
   void sticking(const Motion&, std::vector<Stiction>&) const override;

@@ -12,7 +12,7 @@ struct GForce : WrittenVectorForce {
   static constexpr std::string_view keyword = "GFORCE";
   static constexpr std::string_view summary =
       "A force and torque on a marker by components, with a reaction on a floating marker.";
-  static constexpr bool has_forces = true, has_torques = true;
+  static constexpr Components components = Components::force_and_torque;
   static constexpr std::array<Argument<GForce>, 12> arguments = {{
       {.name = "I", .slot = &GForce::i, .required = true, .help = "marker the force and torque acts on"},
       {.name = "JFLOAT",

@@ -107,7 +107,7 @@ class JournalKernel final : public Kernel, public WrenchSource {
     for (const std::size_t k : eq.share(placed_.size())) {
       eq.begin_element((*labels_)[k]);
       const PairMotion pair = pair_motion(motion, *placed_[k].I, *placed_[k].J);
-      apply(pair, force_of(*placed_[k].bearing, pair, eq.wants_partials()), eq);
+      apply(pair, force_of(*placed_[k].bearing, pair, eq.wanted_partials()), eq);
     }
   }
   std::size_t shares() const override { return shares_of(placed_.size()); }
@@ -115,9 +115,9 @@ class JournalKernel final : public Kernel, public WrenchSource {
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return placed_[k].bearing->i; }
   MarkerId marker_J(std::size_t k) const override { return placed_[k].bearing->j; }
-  void wrench(const Motion& motion, std::size_t k, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     out.pair = pair_motion(motion, *placed_[k].I, *placed_[k].J);
-    out.force = force_of(*placed_[k].bearing, out.pair, with_partials);
+    out.force = force_of(*placed_[k].bearing, out.pair, wanted);
   }
 
   void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
@@ -153,7 +153,7 @@ class JournalKernel final : public Kernel, public WrenchSource {
     static constexpr std::array<double, 3> turns{};
     return relative_displacement(pair, turns);
   }
-  static PairForce force_of(const Journal& bearing, const PairMotion& pair, bool with_partials) {
+  static PairForce force_of(const Journal& bearing, const PairMotion& pair, Partials wanted) {
     const RelativeDisplacement d = displacement_of(pair);
     const std::array<Film, 3> load = film_load(
         bearing, {Film(d.y[0], 0), Film(d.y[1], 1), Film(d.rate[0], 2), Film(d.rate[1], 3), Film(d.rate[5], 4)});
@@ -161,7 +161,7 @@ class JournalKernel final : public Kernel, public WrenchSource {
     w.depends_on_rate = true;
     w.force = {load[0].value, load[1].value, 0}, w.torque = {0, 0, load[2].value};
     static constexpr std::array<std::size_t, 3> rows = {0, 1, 5}, rates = {0, 1, 5};
-    for (std::size_t n = 0; n < 3 && with_partials; ++n) {
+    for (std::size_t n = 0; n < 3 && wanted == Partials::yes; ++n) {
       const auto& slope = load[n].partial;
       for (std::size_t k = 0; k < 6; ++k) {
         for (std::size_t c = 0; c < 2; ++c) w.on_pose[rows[n]][k] += slope[c] * d.on_pose[c][k];
@@ -171,7 +171,7 @@ class JournalKernel final : public Kernel, public WrenchSource {
         }
       }
     }
-    return spread(pair, w, with_partials);
+    return spread(pair, w, wanted);
   }
 
   std::vector<Placed> placed_;

@@ -101,14 +101,14 @@ class NforceKernel final : public Kernel, public WrenchSource {
       look(p, motion, at);
       for (std::size_t k = 0; k < n; ++k) {
         // The force itself turns with J and its arms move; each marker adds what its displacement changes.
-        apply(at.pairs[k], spread(at.pairs[k], total(p, k, motion, at), eq.wants_partials()), eq);
+        apply(at.pairs[k], spread(at.pairs[k], total(p, k, motion, at), eq.wanted_partials()), eq);
         if (!eq.wants_partials()) continue;
         for_each_component(p, k, at.pairs[k], [&](std::int32_t column, const Vector& force, const Vector& torque) {
           apply_column(at.pairs[k], force, torque, true, PartialBy::algebraic, column, eq);
         });
         if (!p.components.empty()) continue;
         for (std::size_t l = 0; l < n; ++l)
-          apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), true), eq);
+          apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), Partials::yes), eq);
       }
     }
   }
@@ -124,20 +124,20 @@ class NforceKernel final : public Kernel, public WrenchSource {
   std::size_t element_of_wrench(std::size_t w) const override { return wrenches_[w].first; }
   MarkerId marker_I(std::size_t w) const override { return law_of(w).markers[wrenches_[w].second]; }
   MarkerId marker_J(std::size_t w) const override { return law_of(w).j; }
-  void wrench(const Motion& motion, std::size_t w, bool with_partials, MarkerWrench& out) const override {
+  void wrench(const Motion& motion, std::size_t w, Partials wanted, MarkerWrench& out) const override {
     const auto [at, k] = wrenches_[w];
     const Placed& p = laws_[at];
     PairScratch& all = out.scratch;
     look(p, motion, all);
     out.pair = all.pairs[k];
-    out.force = spread(out.pair, total(p, k, motion, all), with_partials);
-    if (!with_partials) return;
+    out.force = spread(out.pair, total(p, k, motion, all), wanted);
+    if (wanted == Partials::no) return;
     for_each_component(p, k, out.pair, [&](std::int32_t column, const Vector& force, const Vector& torque) {
       out.scalars.push_back({PartialBy::algebraic, column, force, torque});
     });
     if (!p.components.empty()) return;
     for (std::size_t l = 0; l < p.I.size(); ++l) {
-      const PairForce f = spread(all.pairs[l], change(p, k, l, all), true);
+      const PairForce f = spread(all.pairs[l], change(p, k, l, all), Partials::yes);
       for_each_block(all.pairs[l], layout_, [&](const PairBlock& block) {
         const BlockPartials on = partials_by(block, f);
         for (std::size_t c = 0; c < block.count; ++c) {

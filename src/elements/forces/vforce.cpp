@@ -12,7 +12,7 @@ struct VForce : WrittenVectorForce {
   static constexpr std::string_view keyword = "VFORCE";
   static constexpr std::string_view summary =
       "A force on a marker by components, with a reaction on a floating marker.";
-  static constexpr bool has_forces = true, has_torques = false;
+  static constexpr Components components = Components::force;
   static constexpr std::array<Argument<VForce>, 8> arguments = {{
       {.name = "I", .slot = &VForce::i, .required = true, .help = "marker the force acts on"},
       {.name = "JFLOAT",

@@ -12,7 +12,7 @@ struct VTorque : WrittenVectorForce {
   static constexpr std::string_view keyword = "VTORQUE";
   static constexpr std::string_view summary =
       "A torque on a marker by components, with a reaction on a floating marker.";
-  static constexpr bool has_forces = false, has_torques = true;
+  static constexpr Components components = Components::torque;
   static constexpr std::array<Argument<VTorque>, 8> arguments = {{
       {.name = "I", .slot = &VTorque::i, .required = true, .help = "marker the torque acts on"},
       {.name = "JFLOAT",

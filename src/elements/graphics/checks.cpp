@@ -25,9 +25,9 @@ void demand_not_zero(ElementReader& reader, std::string_view name, double value)
 }
 
 void demand_angle(ElementReader& reader, double angle) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding_of_turn = 1e-9;
   demand_not_zero(reader, "RANGLE", angle);
-  if (std::abs(angle) > 2 * std::numbers::pi * (1 + rounding))
+  if (std::abs(angle) > 2 * std::numbers::pi * (1 + rounding_of_turn))
     out_of_range(reader, "RANGLE", angle, "be at most one turn, 360D or 2π");
 }
 

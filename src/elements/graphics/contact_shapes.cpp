@@ -23,7 +23,7 @@ solid::Frustum between(double length, double bottom, double top) {
 
 solid::Profile profile(PlaneCurve curve) { return {std::make_shared<const PlaneCurve>(std::move(curve))}; }
 
-constexpr double flat = 1e-9;  // of the size of a curve: what of it may leave its plane
+constexpr double out_of_plane = 1e-9;  // of the size of a curve: what of it may leave its plane
 
 }  // namespace
 
@@ -77,7 +77,7 @@ std::optional<ContactShape> CurveLine::contact_shape(const Model& model, std::st
     const Vector p = shape->at(u);
     height = std::max(height, std::abs(p.z)), size = std::max(size, norm(p));
   }
-  if (height <= flat * size) return ContactShape{rm, profile(PlaneCurve::of(shape))};
+  if (height <= out_of_plane * size) return ContactShape{rm, profile(PlaneCurve::of(shape))};
   why = fmt::format("a CURVE that leaves the plane of x and y by {:.6g}", height);
   return std::nullopt;
 }
@@ -101,8 +101,9 @@ std::optional<ContactShape> OutlineOf::contact_shape(const Model& model, std::st
     if (corners.empty() || norm(p - corners.back()) > 0) corners.push_back(p);
   }
   // The same place by another way of calculation closes it as well.
-  if (corners.size() > 3 && norm(corners.back() - corners.front()) <= flat * size) corners.back() = corners.front();
-  if (height <= flat * size && corners.size() > 1)
+  if (corners.size() > 3 && norm(corners.back() - corners.front()) <= out_of_plane * size)
+    corners.back() = corners.front();
+  if (height <= out_of_plane * size && corners.size() > 1)
     return ContactShape{points.front(), profile(PlaneCurve::polygon(corners))};
   why = corners.size() > 1
             ? fmt::format("an OUTLINE that leaves the plane of x and y of its first marker by {:.6g}", height)

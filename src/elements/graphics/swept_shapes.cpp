@@ -23,13 +23,13 @@ std::vector<Vector> lifted(std::vector<Vector> outline, double shift) {
 
 // Points that are the one before them left out, and those in the middle of straight pieces.
 std::vector<Vector> without_straight_points(const std::vector<Vector>& points) {
-  constexpr double rounding = 1e-12;
+  constexpr double sine_of_straight = 1e-12;
   std::vector<Vector> kept;
   for (const Vector& p : points) {
     if (!kept.empty() && norm(p - kept.back()) == 0) continue;
     while (kept.size() > 1) {
       const Vector in = kept.back() - kept[kept.size() - 2], out = p - kept.back();
-      if (norm(cross(in, out)) > rounding * norm(in) * norm(out) || dot(in, out) < 0) break;
+      if (norm(cross(in, out)) > sine_of_straight * norm(in) * norm(out) || dot(in, out) < 0) break;
       kept.pop_back();
     }
     kept.push_back(p);
@@ -113,12 +113,12 @@ void Revolution::draw(Canvas& canvas) const {
   double size = 0;
   for (const Vector& p : points) size = std::max(size, norm(p));
   // The surface only knows how far from the axis the profile is; a wedge begins where its first point off the axis is.
-  constexpr double rounding = 1e-12;
+  constexpr double rounding_of_radius = 1e-12;
   std::vector<Meridian> profile;
   std::optional<double> start;
   for (const Vector& p : points) {
     const double radius = std::hypot(p.x, p.y);
-    const bool on_axis = radius <= rounding * size;
+    const bool on_axis = radius <= rounding_of_radius * size;
     if (!on_axis && !start) start = std::atan2(p.y, p.x);
     profile.push_back({on_axis ? 0 : radius, p.z});
   }

@@ -32,7 +32,7 @@ void MarkerRequest::evaluate(const Motion& motion, std::vector<double>& values) 
       Vector sum{};
       for (const MarkerLoad& l : loads_) {
         w.clear();
-        l.wrench.source->wrench(motion, l.wrench.which, false, w);
+        l.wrench.source->wrench(motion, l.wrench.which, Partials::no, w);
         sum += on_marker(w, l.on_J, part);
       }
       values.push_back(norm(sum));

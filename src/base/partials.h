@@ -1,0 +1,8 @@
+#pragma once
+
+namespace dynalin {
+
+// Whether partial derivatives are wanted beside values.
+enum class Partials : bool { no, yes };
+
+}  // namespace dynalin
