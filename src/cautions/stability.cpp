@@ -203,10 +203,11 @@ bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, con
   const auto beside = linear_at(system, *moved, unused);
   if (!beside) return true;
   const Eigen::Index zeros_beside = zeros_of(*beside).count;
-  if (slow == 0) return zeros_beside < zeros;
+  if (zeros_beside >= zeros + static_cast<Eigen::Index>(slow)) return false;
   const auto spectrum = spectrum_of(*beside, unused);
-  return !spectrum || static_cast<std::size_t>(zeros_beside) + slow_ones(spectrum->values, as_slow * limit).size() <
-                          static_cast<std::size_t>(zeros) + slow;
+  if (!spectrum) return true;
+  const auto slow_beside = static_cast<Eigen::Index>(slow_ones(spectrum->values, as_slow * limit).size());
+  return zeros_beside + slow_beside < zeros + static_cast<Eigen::Index>(slow);
 }
 
 }  // namespace

@@ -157,7 +157,8 @@ class Splitter {
   // that they are null is proved elsewhere.
   bool split_off_sparsest(const Matrix& v) {
     const double as_given = excess(v);
-    if (!(as_given <= most_excess) || (core() * v).norm() > 1e-6 * core().norm() * v.norm()) return false;
+    const bool is_small = as_given <= 1 || (core() * v).norm() <= 1e-6 * core().norm() * v.norm();
+    if (!(as_given <= most_excess) || !is_small) return false;
     for (const double least : {1e-8, 1e-10, 1e-12, rounding_of_entries, 0.0}) {
       Matrix sparse = without_small(v, least);
       if (excess(sparse) > std::max(1.0, 2 * as_given)) continue;
