@@ -15,7 +15,7 @@ using Values = std::vector<std::complex<double>>;
 
 Values eigenvalues(const library::Study& study, const library::OperatingPoint& at, const LinearRequest& request = {}) {
   Values all;
-  for (const EigenMode& m : study.linearize(at, request).modes(ModeShapes::left_out).modes)
+  for (const EigenMode& m : study.linearize(at, request).modes(library::ModeShapes::left_out).modes)
     all.push_back(m.eigenvalue_hz * 2.0 * M_PI);
   std::ranges::sort(all, {}, [](const auto& z) { return std::abs(z); });
   return all;

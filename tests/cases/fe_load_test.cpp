@@ -17,7 +17,8 @@ library::OperatingPoint equilibrium(const std::string& dataset) { return study_o
 std::vector<std::complex<double>> spectrum(const std::string& dataset, const LinearRequest& request = {}) {
   const auto study = study_of(dataset);
   std::vector<std::complex<double>> all;
-  for (const EigenMode& m : study.linearize(study.static_equilibrium(), request).modes(ModeShapes::left_out).modes)
+  for (const EigenMode& m :
+       study.linearize(study.static_equilibrium(), request).modes(library::ModeShapes::left_out).modes)
     all.push_back(m.eigenvalue_hz);
   std::ranges::sort(all, {}, [](const auto& z) { return std::abs(z); });
   return all;
@@ -190,7 +191,7 @@ TEST(FeLoad, that_depends_on_places_and_rates_moves_eigenvalues) {
   };
   const auto values = [](const std::string& dataset, const LinearRequest& request) {
     std::vector<std::complex<double>> all;
-    for (const EigenMode& m : study_of(dataset).linearize(request).modes(ModeShapes::left_out).modes)
+    for (const EigenMode& m : study_of(dataset).linearize(request).modes(library::ModeShapes::left_out).modes)
       all.push_back(m.eigenvalue_hz);
     return all;
   };

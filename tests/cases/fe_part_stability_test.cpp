@@ -15,7 +15,7 @@ namespace {
 std::vector<std::complex<double>> squares(const std::string& dataset) {
   const auto study = study_of(dataset);
   std::vector<std::complex<double>> list;
-  for (const EigenMode& m : study.linearize(study.static_equilibrium()).modes(ModeShapes::left_out).modes) {
+  for (const EigenMode& m : study.linearize(study.static_equilibrium()).modes(library::ModeShapes::left_out).modes) {
     const std::complex<double> s = 2 * std::numbers::pi * m.eigenvalue_hz;
     if (s.imag() > 0 || s.real() > 0) list.push_back(s * s);
   }

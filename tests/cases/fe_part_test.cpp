@@ -24,7 +24,7 @@ struct Spectrum {
 };
 Spectrum spectrum(const library::LinearModel& linear) {
   Spectrum s;
-  for (const EigenMode& m : linear.modes(ModeShapes::left_out).modes) {
+  for (const EigenMode& m : linear.modes(library::ModeShapes::left_out).modes) {
     if (m.eigenvalue_hz == std::complex<double>(0)) {
       ++s.zeros;
     } else if (m.eigenvalue_hz.imag() > 0) {
@@ -109,7 +109,7 @@ TEST(FePart, a_column_buckles_under_eulers_load) {
                               fmt::format("VFORCE/1, I=22, JFLOAT=2, RM=1, FX={:.17g}\n", -part * pi * pi / 4)));
     const auto point = study.static_equilibrium();
     double least = 1e300;
-    for (const EigenMode& m : study.linearize(point).modes(ModeShapes::left_out).modes) {
+    for (const EigenMode& m : study.linearize(point).modes(library::ModeShapes::left_out).modes) {
       const std::complex<double> square = m.eigenvalue_hz * m.eigenvalue_hz;
       least = std::min(least, -square.real());
     }
@@ -146,7 +146,7 @@ TEST(FePart, damping_by_stiffness_grows_with_the_frequency) {
   const std::vector<double> undamped = spectrum(clamped_beam({.elements = 2, .height = 0.1, .width = 0.1})).frequencies;
   const auto linear = study_of(clamped_beam(beam)).linearize();
   std::vector<double> real;
-  for (const EigenMode& m : linear.modes(ModeShapes::left_out).modes) {
+  for (const EigenMode& m : linear.modes(library::ModeShapes::left_out).modes) {
     if (!m.is_real) real.push_back(-2 * pi * m.eigenvalue_hz.real());
   }
   std::ranges::sort(real);

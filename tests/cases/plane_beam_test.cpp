@@ -42,7 +42,7 @@ std::string clamped(int elements, const Plane& plane, const std::string& stateme
 
 std::vector<double> frequencies(const library::LinearModel& linear) {
   std::vector<double> all;
-  for (const EigenMode& m : linear.modes(ModeShapes::left_out).modes) {
+  for (const EigenMode& m : linear.modes(library::ModeShapes::left_out).modes) {
     if (m.eigenvalue_hz.imag() > 0) all.push_back(2 * pi * m.eigenvalue_hz.imag());
   }
   std::ranges::sort(all);
@@ -143,7 +143,7 @@ TEST(PlaneBeam, bends_about_the_normal_of_its_plane) {
 TEST(PlaneBeam, free_in_its_plane_it_has_six_zeros) {
   const auto linear = study_of(beam_model(plane_beam(4).text())).linearize();
   std::size_t zeros = 0;
-  for (const EigenMode& m : linear.modes(ModeShapes::left_out).modes)
+  for (const EigenMode& m : linear.modes(library::ModeShapes::left_out).modes)
     zeros += m.eigenvalue_hz == std::complex<double>(0);
   EXPECT_EQ(zeros, 6u);
   EXPECT_NEAR(frequencies(linear)[0], 4.73004074 * 4.73004074, 2e-3 * 22);
@@ -208,7 +208,7 @@ TEST(PlaneBeam, is_damped_by_its_stiffness) {
   const double undamped = frequencies(clamped(2, planes[0]))[0];
   std::vector<double> real;
   for (const EigenMode& m :
-       study_of(clamped(2, planes[0], "", ", CRATIO=0.002")).linearize().modes(ModeShapes::left_out).modes) {
+       study_of(clamped(2, planes[0], "", ", CRATIO=0.002")).linearize().modes(library::ModeShapes::left_out).modes) {
     if (!m.is_real) real.push_back(-2 * pi * m.eigenvalue_hz.real());
   }
   EXPECT_NEAR(*std::ranges::min_element(real), 0.001 * undamped * undamped, 1e-7);
