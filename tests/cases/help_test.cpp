@@ -239,7 +239,7 @@ TEST(Explain, finds_a_code_by_a_word_of_its_message) {
   const Printed list = explain("Drawn");
   EXPECT_EQ(list.status, done);
   EXPECT_THAT(list.out, AllOf(HasSubstr("\ndrawn-open "), HasSubstr("\nskew-axes "),
-                           HasSubstr("says what to do about one of them"), Not(HasSubstr("unknown-marker"))));
+                              HasSubstr("says what to do about one of them"), Not(HasSubstr("unknown-marker"))));
   // One alone is explained.
   EXPECT_EQ(explain("DRAWN constraint").out, explain("drawn-open").out);
   for (const Explanation& e : explanations()) {
