@@ -1,6 +1,7 @@
 #include "subcommands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iostream>
@@ -44,6 +45,9 @@ CLI::Validator finite() {
       },
       "");
 }
+
+// Words that the shell has taken apart.
+std::string with_blanks(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 // How a model is read, whatever becomes of it.
 void add_options_of_reading(CLI::App& app, SessionOptions& options) {
@@ -93,7 +97,8 @@ RunSubcommand::RunSubcommand(CLI::App& of, SessionOptions& options)
   app_.add_flag("--keep-going", options.keep_going, "go on after a command that failed");
   app_.add_flag("--bounds", options.bounds, "say how exact each eigenvalue is");
   app_.add_flag("--state", options.state, "print every operating point: positions, velocities, reactions, forces ...");
-  app_.add_flag("--quiet", options.quiet, "no tables on the terminal");
+  app_.add_flag("--quiet", options.quiet,
+                "nothing on standard output but what asks for it by -: warnings and errors alone");
   add_options_of_reading(app_, options);
 }
 
@@ -157,20 +162,21 @@ int ReduceSubcommand::run() { return dynalin::reduction::reduce(body_, std::cout
 
 HelpSubcommand::HelpSubcommand(CLI::App& of, const ReduceSubcommand& reduce)
     : Subcommand(of, "help", "a statement, command or function, or the list of them"), reduce_(reduce) {
-  app_.add_option("NAME", word_, "LINEAR, JOINT, STEP …");
+  app_.add_option("NAME", words_, "LINEAR, JOINT, JOINT REVOLUTE, STEP …");
 }
 
 int HelpSubcommand::run() {
-  if (word_ == "reduce") {  // no name of the language: its options say it all
+  const std::string name = with_blanks(words_);
+  if (name == "reduce") {  // no name of the language: its options say it all
     std::cout << reduce_.help();
     return dynalin::done;
   }
-  return dynalin::print_help(word_, std::cout, std::cerr);
+  return dynalin::print_help(name, std::cout, std::cerr);
 }
 
 ExplainSubcommand::ExplainSubcommand(CLI::App& of)
     : Subcommand(of, "explain", "what a message means, or the list of messages") {
-  app_.add_option("CODE", code_, "what stands in brackets behind the message");
+  app_.add_option("CODE", words_, "what stands in brackets behind the message, or words of it");
 }
 
-int ExplainSubcommand::run() { return dynalin::print_explanation(code_, std::cout, std::cerr); }
+int ExplainSubcommand::run() { return dynalin::print_explanation(with_blanks(words_), std::cout, std::cerr); }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "command/session.h"
 #include "nastran_reader/nastran_program.h"
@@ -70,7 +71,7 @@ class HelpSubcommand final : public Subcommand {
 
  private:
   const ReduceSubcommand& reduce_;
-  std::string word_;
+  std::vector<std::string> words_;
 };
 
 class ExplainSubcommand final : public Subcommand {
@@ -79,7 +80,7 @@ class ExplainSubcommand final : public Subcommand {
   int run() override;
 
  private:
-  std::string code_;
+  std::vector<std::string> words_;
 };
 
 // Commands on standard input instead of a file; false, said on standard error, if it cannot be read.

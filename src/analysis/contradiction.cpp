@@ -1,12 +1,12 @@
 #include "analysis/contradiction.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "system/sparse_lu.h"
 
 namespace dynalin {
@@ -85,10 +85,8 @@ std::string contradiction(const System& system, const std::vector<SparseRow>& gr
   if (others.empty()) return system.row_text(row) + " cannot hold together with the others";
   const std::size_t more = others.size() > most_contradicted ? others.size() - most_contradicted : 0;
   others.resize(others.size() - more);
-  const std::string last = more > 0 ? fmt::format("{} more", more) : std::exchange(others.back(), {});
-  if (more == 0) others.pop_back();
-  return fmt::format("{} cannot hold together with {}{}{}", system.row_text(row), fmt::join(others, ", "),
-                     others.empty() ? "" : " and ", last);
+  if (more > 0) others.push_back(fmt::format("{} more", more));
+  return fmt::format("{} cannot hold together with {}", system.row_text(row), enumeration(others));
 }
 
 }  // namespace dynalin

@@ -4,8 +4,10 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/diagnostics.h"
+#include "base/enumeration.h"
 #include "command/command_catalogue.h"
 #include "command/help_pages.h"
 #include "command/session.h"
@@ -18,6 +20,8 @@
 namespace dynalin {
 
 namespace {
+
+using Names = std::vector<std::string_view>;
 
 bool has_statement(std::string_view name) {
   return std::any_of(catalogue().begin(), catalogue().end(), [&](const Kind* kind) { return kind->statement == name; });
@@ -111,27 +115,115 @@ void list_functions(std::ostream& out) {
   flush();
 }
 
-// Of each class the nearest name, so that a slip finds what was meant wherever it stands.
-std::vector<std::string_view> nearest_names(std::string_view word) {
-  std::vector<std::string_view> near;
-  const auto look = [&](std::span<const std::string_view> names) {
-    const std::string_view n = nearest_word(word, names);
-    if (!n.empty() && std::find(near.begin(), near.end(), n) == near.end()) near.push_back(n);
-  };
-  std::vector<std::string_view> functions, types;
-  for (const FunctionEntry& f : function_manual()) functions.push_back(f.name);
-  for (const Kind* kind : catalogue()) {
-    if (!kind->variant.empty()) types.push_back(kind->variant);
+void add_once(Names& names, std::string_view name) {
+  if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+// Names that have a page, class by class.
+struct NamesOfHelp {
+  Names statements{statement_names().begin(), statement_names().end()};
+  Names commands{command_names().begin(), command_names().end()};
+  Names functions, types, arguments;
+
+  NamesOfHelp() {
+    for (const FunctionEntry& f : function_manual()) functions.push_back(f.name);
+    for (const Kind* kind : catalogue()) {
+      add_once(types, kind->variant);
+      for (const ArgumentInfo& a : kind->arguments) add_once(arguments, a.name);
+    }
+    for (const CommandKind& row : command_catalogue()) {
+      for (const ArgumentInfo& a : row.arguments) add_once(arguments, a.name);
+    }
   }
-  look(statement_names()), look(command_names()), look(functions), look(types);
-  if (near.empty()) look(nastran::directive_names());
+};
+
+// What a beginning of a word may mean; arguments where it is nothing else.
+Names names_that_begin(std::string_view word) {
+  const NamesOfHelp all;
+  Names found;
+  const auto look = [&](const Names& names) {
+    for (const std::string_view name : names) {
+      if (begins_with_ignoring_case(name, word)) add_once(found, name);
+    }
+  };
+  look(all.statements), look(all.commands), look(all.functions), look(all.types);
+  if (found.empty()) look(all.arguments);
+  return found;
+}
+
+// Of each class the nearest name, so that a slip finds what was meant wherever it stands.
+Names nearest_names(std::string_view word) {
+  const NamesOfHelp all;
+  Names near;
+  for (const Names* names : {&all.statements, &all.commands, &all.functions, &all.types})
+    add_once(near, nearest_word(word, *names));
+  if (near.empty()) add_once(near, nearest_word(word, nastran::directive_names()));
+  if (near.empty()) add_once(near, nearest_word(word, all.arguments));
   return near;
+}
+
+// The words of a name as commands and statements are written, LINEAR/EIGENSOL, RM=5 or JOINT REVOLUTE, without ids and
+// values.
+Names words_of(std::string_view name) {
+  Names words;
+  if (name.starts_with('/')) return {name};
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of("/, "), name.size());
+    const std::string_view word = name.substr(0, end);
+    if (!word.empty() && std::isdigit(static_cast<unsigned char>(word.front())) == 0)
+      words.push_back(word.substr(0, word.find('=')));
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return words;
+}
+
+int unknown_name(std::string_view name, std::ostream& err) {
+  constexpr std::size_t most = 12;
+  std::vector<std::string> begin;
+  for (const std::string_view n : names_that_begin(name)) begin.emplace_back(n);
+  if (!begin.empty()) {
+    fmt::print(err, "error: {} may be short for several names\n", name);
+    if (begin.size() > most) {
+      const std::size_t more = begin.size() - most;
+      begin.resize(most), begin.push_back(fmt::format("{} more", more));
+    }
+    fmt::print(err, "hint: {}\n", enumeration(begin));
+    return wrong_usage;
+  }
+  const Names near = nearest_names(name);
+  fmt::print(err, "error: there is no statement, command or function {}\n", name);
+  if (!near.empty()) fmt::print(err, "hint: {} {}\n", enumeration(near), near.size() == 1 ? "exists" : "exist");
+  fmt::print(err, "hint: `dynalin help` lists all of them\n");
+  return wrong_usage;
+}
+
+// JOINT/REVOLUTE: the page of one type; of an argument that of its statement or command.
+int print_help_of(std::string_view name, std::string_view part, std::ostream& out, std::ostream& err) {
+  const Names types = types_of(statement_name(name));
+  if (const auto type = find_keyword(part, types)) {
+    print_type(statement_name(name), types[*type], out);
+    return done;
+  }
+  const Names parts = names_within(upper_case(name));
+  Names tied;
+  if (parts.empty() || find_keyword(part, parts, &tied) || !tied.empty()) return print_help(name, out, err);
+  const std::string_view near = nearest_word(part, parts);
+  const std::string_view statement = statement_name(name);
+  fmt::print(err, "error: {} has no {} {}\n", statement.empty() ? upper_case(name) : std::string(statement),
+             types.empty() ? "argument" : "type or argument", part);
+  fmt::print(err, "hint: {}\n",
+             !near.empty()    ? fmt::format("{} exists", near)
+             : !types.empty() ? fmt::format("its types are {}", enumeration(types))
+                              : fmt::format("`dynalin help {}` shows what it takes", name));
+  return wrong_usage;
 }
 
 }  // namespace
 
 int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
-  if (name.find('/') != 0) name = name.substr(0, name.find('/'));  // as commands are written: LINEAR/EIGENSOL
+  const Names words = words_of(name);
+  if (words.size() > 1) return print_help_of(words[0], words[1], out, err);
+  name = words.empty() ? std::string_view() : words.front();
   if (name.empty()) {
     list_statements(out);
     fmt::print(out, "\n");
@@ -149,14 +241,45 @@ int print_help(std::string_view name, std::ostream& out, std::ostream& err) {
   }
   const bool found = print_pages(upper_case(name), out);
   if (nastran::print_directive(name, out) || found) return done;
-  const auto near = nearest_names(name);
-  fmt::print(err, "error: there is no statement, command or function {}\n", name);
-  if (!near.empty()) fmt::print(err, "hint: {} {}\n", fmt::join(near, ", "), near.size() == 1 ? "exists" : "exist");
-  fmt::print(err, "hint: `dynalin help` lists all of them\n");
-  return wrong_usage;
+  const Names meant = names_that_begin(name);
+  if (meant.size() == 1 && print_pages(std::string(meant.front()), out)) return done;
+  return unknown_name(name, err);
+}
+
+std::string help_name(const Statement& help) {
+  std::string name;
+  for (const WrittenArgument& w : help.arguments) name += (name.empty() ? "" : " ") + std::string(w.name.text());
+  return name;
 }
 
 void print_commands(std::ostream& out) { list_commands(out); }
+
+namespace {
+
+void print_explanation(const Explanation& e, std::ostream& out) {
+  fmt::print(out, "{}: {}\n\n{}\n", e.code, e.text, e.advice);
+}
+
+bool has_all(const std::string& text, std::string_view words) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (text.find(words.substr(0, end)) == std::string::npos) return false;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return true;
+}
+
+// Words of a message in the place of its code: those that have all of them in code and text, or else in their advice.
+std::vector<const Explanation*> explanations_with(const std::string& words) {
+  std::vector<const Explanation*> found, by_advice;
+  for (const Explanation& e : explanations()) {
+    if (has_all(lower_case(e.code) + " " + lower_case(e.text), words)) found.push_back(&e);
+    if (has_all(lower_case(e.advice), words)) by_advice.push_back(&e);
+  }
+  return found.empty() ? by_advice : found;
+}
+
+}  // namespace
 
 int print_explanation(std::string_view code, std::ostream& out, std::ostream& err) {
   if (code.empty()) {
@@ -168,7 +291,18 @@ int print_explanation(std::string_view code, std::ostream& out, std::ostream& er
   std::erase_if(word, [](char c) { return c == '[' || c == ']'; });
   word = lower_case(word);
   if (const Explanation* e = find_explanation(word)) {
-    fmt::print(out, "{}: {}\n\n{}\n", e->code, e->text, e->advice);
+    print_explanation(*e, out);
+    return done;
+  }
+  const auto with_word = explanations_with(word);
+  if (with_word.size() == 1) {
+    print_explanation(*with_word.front(), out);
+    return done;
+  }
+  if (!with_word.empty()) {
+    fmt::print(out, "messages about \"{}\":\n", word);
+    for (const Explanation* e : with_word) fmt::print(out, "{:<26} {}\n", e->code, e->text);
+    fmt::print(out, "\n`dynalin explain CODE` says what to do about one of them.\n");
     return done;
   }
   std::vector<std::string_view> codes;

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "command/command_catalogue.h"
@@ -67,11 +68,12 @@ bool contains(std::span<const ArgumentInfo> list, const ArgumentInfo& a) {
 void print_statement(std::ostream& out, const std::vector<const Kind*>& kinds) {
   const Kind& first = *kinds.front();
   const bool has_id = first.role != Kind::Role::singleton && !is_beside_model(first);
-  const bool has_types = !first.variant.empty();
-  fmt::print(out, "{}/{}{}{}\n", first.statement, has_id ? "id" : "", has_types ? (has_id ? ", type" : "type") : "",
-             first.arguments.empty() ? ""
-             : (has_id || has_types) ? ", arguments"
-                                     : "arguments");
+  const bool has_types = kinds.size() > 1;
+  const std::string_view type = has_types ? "type" : first.variant;
+  fmt::print(out, "{}/{}{}{}{}\n", first.statement, has_id ? "id" : "", has_id && !type.empty() ? ", " : "", type,
+             first.arguments.empty()   ? ""
+             : has_id || !type.empty() ? ", arguments"
+                                       : "arguments");
   std::vector<ArgumentInfo> shared;
   for (const ArgumentInfo& a : first.arguments) {
     const bool everywhere =
@@ -192,6 +194,32 @@ std::vector<std::string_view> types_of(std::string_view statement) {
   return types;
 }
 
+void print_type(std::string_view statement, std::string_view type, std::ostream& out) {
+  for (const Kind* kind : kinds_of(statement)) {
+    if (kind->variant == type) print_statement(out, {kind});
+  }
+}
+
+std::vector<std::string_view> names_within(const std::string& name) {
+  std::vector<std::string_view> names;
+  const auto take = [&](std::span<const ArgumentInfo> arguments) {
+    for (const ArgumentInfo& a : arguments) names.push_back(a.name);
+  };
+  for (const Kind* kind : kinds_of(statement_name(name))) {
+    if (!kind->variant.empty()) names.push_back(kind->variant);
+    take(kind->arguments);
+  }
+  if (const auto k = find_keyword(name, command_names())) {
+    const CommandKind& command = *find_command(command_names()[*k]);
+    take(command.arguments);
+    names.push_back("LIST");
+    names.insert(names.end(), command.classes.begin(), command.classes.end());
+  }
+  std::ranges::sort(names);  // one of several types is no tie
+  names.erase(std::ranges::unique(names).begin(), names.end());
+  return names;
+}
+
 bool print_pages(const std::string& name, std::ostream& out) {
   bool any = false;
   const auto next = [&] {
@@ -228,12 +256,8 @@ bool print_pages(const std::string& name, std::ostream& out) {
   if (function != functions.end()) next(), print_function(out, *function);
   if (any) return true;
   // REVOLUTE alone: the statements that it is a type of.
-  std::string_view shown;
   for (const Kind* kind : catalogue()) {
-    if (kind->variant != name || kind->statement == shown) continue;
-    shown = kind->statement;
-    next();
-    print_statement(out, kinds_of(shown));
+    if (kind->variant == name) next(), print_statement(out, {kind});
   }
   return any || print_owners(out, name);
 }

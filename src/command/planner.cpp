@@ -10,6 +10,7 @@
 #include "command/commands/file.h"
 #include "command/commands/reload.h"
 #include "command/output_plan.h"
+#include "dataset/characters.h"
 
 namespace dynalin {
 
@@ -139,8 +140,11 @@ void Planner::open(const Opening& o) {
   const SourceRef source = read(o.path, why);
   if (!source) {
     const bool on_a_line = o.at.source && o.echo.empty();
-    diagnostics.error("missing-model", o.at, fmt::format("the dataset {} cannot be read: {}", o.path, why),
-                      on_a_line ? "the first line of a command file is the name of its dataset" : "");
+    std::string hint = on_a_line ? "the first line of a command file is the name of its dataset" : "";
+    const std::string_view word = o.at.text().substr(0, o.at.text().find_first_of(" ,"));
+    if (on_a_line && std::ranges::any_of(command_names(), [&](auto name) { return equal_ignoring_case(name, word); }))
+      hint += fmt::format("; behind an empty line {} is a command", word);
+    diagnostics.error("missing-model", o.at, fmt::format("the dataset {} cannot be read: {}", o.path, why), hint);
     sound_ = false;
     missed_ = true;
     return;

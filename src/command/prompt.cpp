@@ -97,11 +97,10 @@ class Prompt {
       if (!c.action->stops()) fmt::print(out_, "{} waits for a model: FILE/MODEL=name\n", c.text);
       return plan_.add(std::move(c));
     }
-    const auto& arguments = c.statement->arguments;
     if (c.kind->name == "MENU")
       print_commands(out_);
     else
-      print_help(arguments.empty() ? std::string_view() : arguments.front().name.text(), out_, err_);
+      print_help(help_name(*c.statement), out_, err_);
   }
 
   const SessionOptions& options_;

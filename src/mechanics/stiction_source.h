@@ -24,7 +24,8 @@ class StictionSource {
  public:
   // Adds what sticks and bears a load.
   virtual void sticking(const Motion&, std::vector<Stiction>&) const = 0;
-  // At a place of a search for an equilibrium: adds a sentence on each element that bears nearly all it can there.
+  // At a place of a search for an equilibrium: adds a sentence on each element that bears nearly all it can there, or
+  // whose surfaces hold nothing at rest.
   virtual void exhausted(const Motion&, std::vector<std::string>&) const = 0;
 
  protected:

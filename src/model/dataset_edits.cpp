@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/enumeration.h"
 #include "dataset/word_list.h"
 #include "model/model.h"
 
@@ -51,7 +52,7 @@ bool is_list(const WrittenArgument& w, const Kind* kind) {
 std::string class_hint(std::string_view word, Names classes) {
   std::vector<std::string_view> tied;
   if (find_keyword(word, classes, &tied)) tied.clear();
-  if (!tied.empty()) return fmt::format("it could be {}", fmt::join(tied, " or "));
+  if (!tied.empty()) return fmt::format("it could be {}", enumeration(tied, "or"));
   const std::string_view near = nearest_word(word, classes);
   return near.empty() ? fmt::format("one of {}", fmt::join(classes, ", ")) : fmt::format("did you mean {}?", near);
 }

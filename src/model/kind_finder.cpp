@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 
+#include "base/enumeration.h"
+
 namespace dynalin {
 
 namespace {
@@ -81,7 +83,7 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
     if (!tied.empty()) {
       diagnostics.error("missing-variant", strange->name,
                         fmt::format("{} may mean several types of {}", strange->name.text(), s.name),
-                        fmt::format("it could be {}", fmt::join(tied, " or ")));
+                        fmt::format("it could be {}", enumeration(tied, "or")));
       return nullptr;
     }
     diagnostics.error("missing-variant", named ? strange->name : s.at,

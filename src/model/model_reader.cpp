@@ -1,11 +1,12 @@
 #include "model/model_reader.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <span>
 #include <vector>
+
+#include "base/enumeration.h"
 
 namespace dynalin {
 
@@ -128,7 +129,7 @@ std::string ModelReader::near_ids(std::string_view statement, std::int64_t id) c
   near.erase(std::unique(near.begin(), near.end()), near.end());
   if (near.size() > 3) near.resize(3);
   if (near.empty()) return {};
-  return fmt::format("{} {}", fmt::join(near, " and "), near.size() == 1 ? "exists" : "exist");
+  return fmt::format("{} {}", enumeration(near), near.size() == 1 ? "exists" : "exist");
 }
 
 void ModelReader::check_id(const Atom& atom, std::size_t k, std::string_view statement) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 
+#include "base/enumeration.h"
+
 namespace dynalin {
 
 std::optional<Span> ElementReader::at_argument(std::string_view argument) const {
@@ -252,7 +254,7 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
   if (!k) {
     if (!tied.empty()) {
       r.error("ambiguous-argument", written.name,
-              fmt::format("{} of {} could be {}", written.name.text(), owner, fmt::join(tied, " or ")));
+              fmt::format("{} of {} could be {}", written.name.text(), owner, enumeration(tied, "or")));
       return std::nullopt;
     }
     const auto near = nearest_word(written.name.text(), names);

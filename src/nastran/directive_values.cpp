@@ -1,11 +1,11 @@
 #include "nastran/directive_values.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <numbers>
 
+#include "base/enumeration.h"
 #include "dataset/characters.h"
 #include "dataset/dataset.h"
 #include "dataset/number.h"
@@ -94,7 +94,7 @@ std::optional<std::size_t> read_choice(const Span& at, std::span<const std::stri
     if (words[k] == at.text()) return k;
   }
   const std::string_view near = nearest_word(at.text(), words);
-  place.error(at, fmt::format("{} is {}, not \"{}\"", place.name, fmt::join(words, " or "), at.text()),
+  place.error(at, fmt::format("{} is {}, not \"{}\"", place.name, enumeration(words, "or"), at.text()),
               near.empty() ? "" : fmt::format("{} = {}", place.name, near));
   return std::nullopt;
 }

@@ -10,7 +10,9 @@ OutputTimes::OutputTimes(double start, double end, double step) : start_(start),
   // An end that is a whole number of steps away but for rounding is.
   const double intervals = (end - start) / step, nearest = std::round(intervals);
   const bool whole = std::abs(intervals - nearest) <= 1e-9 * std::max(1.0, nearest);
-  count_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(whole ? nearest : std::ceil(intervals)));
+  constexpr double countable = 1e15;  // more than anybody takes, and exact
+  count_ =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(whole ? nearest : std::ceil(intervals), countable)));
 }
 
 OutputTimes OutputTimes::of_count(double start, double end, std::int64_t steps) {

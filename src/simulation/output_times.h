@@ -16,6 +16,8 @@ class OutputTimes {
   double end() const { return end_; }
   double step() const { return step_; }
   std::int64_t count() const { return count_; }  // of intervals
+  // More outputs than this are no simulation that anybody waits for, or has a disk for.
+  static constexpr std::int64_t most = 100'000'000;
   // Whether numbers of double precision tell each instant from the next.
   bool are_distinct() const;
   // The k-th of 0 … count(), exact at both ends.

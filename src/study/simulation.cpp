@@ -6,6 +6,7 @@
 #include "simulation/dynamics.h"
 #include "simulation/kinematics.h"
 #include "simulation/quasi_statics.h"
+#include "simulation/reach.h"
 
 namespace dynalin {
 
@@ -54,6 +55,12 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
                                request.times.step(), request.times.end()),
                    "outputs-too-close");
   }
+  if (request.times.count() > OutputTimes::most) {
+    return refused(fmt::format("outputs {:g} apart (DTOUT) up to a time of {:g} are {:.4g}, and {:.0e} are the most",
+                               request.times.step(), request.times.end(), static_cast<double>(request.times.count()),
+                               static_cast<double>(OutputTimes::most)),
+                   "too-many-outputs");
+  }
   const std::size_t freedoms = degrees_of_freedom(system, result.point.values);
   result.kind = kind_at(result.point, request.kind);
   Findings findings;
@@ -65,9 +72,18 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
   result.point.statics.reset();
   RoutineFindings routines;
   const RoutineFindings::Scope watched(routines);
-  auto advanced = advance(system, request, freedoms, watch, result, findings);
+  std::optional<std::string> out_of_reach;
+  const SimulationWatch watch_reach = [&](const SimulationStep& at) {
+    out_of_reach = end_out_of_reach(request.times, at);
+    return !out_of_reach && (!watch || watch(at) == GoOn::yes) ? GoOn::yes : GoOn::no;
+  };
+  auto advanced = advance(system, request, freedoms, watch_reach, result, findings);
   for (const std::string& wrong : routines.wrong_partials) findings.warnings.warning("wrong-derivative", {}, wrong);
   result.remarks.append(std::move(findings.warnings));
+  if (out_of_reach) {
+    return tl::unexpected(StudyFailure(Failure{"simulation", std::move(*out_of_reach), {}, "end-out-of-reach"},
+                                       std::move(result.remarks)));
+  }
   if (!advanced) return tl::unexpected(StudyFailure(advanced.error(), std::move(result.remarks)));
   result.point.values = std::move(advanced->point);
   result.point.redundant_rows.clear();

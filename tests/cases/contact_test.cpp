@@ -64,14 +64,19 @@ TEST_F(Contacts, that_only_rub_hold_nothing_at_rest) {
   const std::string block =
       "PART/2, MASS=2, CM=2, IP=0.1,0.1,0.1, QG=0,0,0.1, REULER=0,10D,0\nMARKER/2\nMARKER/4, QP=-0.1,-0.1,-0.1\n"
       "GRAPHICS/2, BOX, CORNER=4, X=0.2, Y=0.2, Z=0.2\n";
-  const RunResult r = run(head + slope + block +
-                              "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=2E4, EXPONENT=1, DAMPING=40, DMAX=0.001, "
-                              "COULOMB_FRICTION=ON, MU_STATIC=0.6, MU_DYNAMIC=0.5, STICTION_TRANSITION_VELOCITY=0.01, "
-                              "FRICTION_TRANSITION_VELOCITY=0.02\nEND\n",
-                          "SIMULATE/STATICS\n");
-  EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, AllOf(HasSubstr("no equilibrium was found"),
-                           HasSubstr("friction of CONTACT/1 goes by the speed of slip and holds nothing at rest")));
+  for (const auto& [when, says] :
+       {std::pair{"ON", "friction of CONTACT/1 goes by the speed of slip and holds nothing at rest"},
+        std::pair{"DYNAMICS_ONLY", "friction of CONTACT/1 is left out of statics by DYNAMICS_ONLY"}}) {
+    const RunResult r =
+        run(head + slope + block +
+                "CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=2E4, EXPONENT=1, DAMPING=40, DMAX=0.001, " +
+                "COULOMB_FRICTION=" + when +
+                ", MU_STATIC=0.6, MU_DYNAMIC=0.5, STICTION_TRANSITION_VELOCITY=0.01, "
+                "FRICTION_TRANSITION_VELOCITY=0.02\nEND\n",
+            "SIMULATE/STATICS\n");
+    EXPECT_EQ(r.status, 2);
+    EXPECT_THAT(r.err, AllOf(HasSubstr("no equilibrium was found"), HasSubstr(says)));
+  }
 }
 
 // A sphere on a plane with friction: the same wrench as a GFORCE at its centre, the friction at half the penetration.

@@ -52,10 +52,13 @@ TEST_F(DatasetGrammar, request_may_call_what_nothing_here_evaluates) {
 
 TEST_F(DatasetGrammar, preferences_stand_in_a_dataset_and_f77_points_to_original) {
   expect_read("PREFERENCES/SOLVER=CXX, STATUS_MESSAGE=ON, LIBPATH=/a/b.c, SIMEXIT\n");
-  const RunResult r = with("PREF/SOLVER=F77\n");
-  ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.err, HasSubstr("ORIGINAL"));
-  EXPECT_THAT(r.message, HasSubstr("ORIGINAL"));
+  for (const std::string solver : {"F77", "F7", "FORTRAN", "for"}) {
+    const RunResult r = with("PREF/SOLVER=" + solver + "\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("asks for the FORTRAN solver: LINEAR with ORIGINAL")) << solver;
+    EXPECT_THAT(r.message, HasSubstr("ORIGINAL"));
+  }
+  EXPECT_THAT(with("PREF/SOLVER=FORTRAN\n").err, HasSubstr("PREFERENCES/SOLVER=FORTRAN asks"));
 }
 
 TEST_F(DatasetGrammar, a_part_may_name_a_material) {

@@ -279,6 +279,20 @@ TEST_F(FrictionCases, surfaces_give_way_in_statics_until_bristles_bear_the_load)
   }
 }
 
+// On a slope: what holds nothing in statics is named with its joint, and by what it is so.
+TEST_F(FrictionCases, that_is_left_out_of_statics_is_named_where_nothing_else_holds) {
+  const std::string slope = "ACCGRAV/IGRAV=3, JGRAV=-9\n";
+  for (const auto& [option, says] :
+       {std::pair{"INACTIVE=STATIC", "FRICTION/4 of JOINT/1 is left out of statics by INACTIVE=STATIC"},
+        std::pair{"EFFECT=SLIDING", "FRICTION/4 of JOINT/1 has no bristles, and holds nothing at rest"}}) {
+    std::string model = block(fmt::format("FRICTION/4, JOINT=1, MU_STATIC=0.5, {}\n", option));
+    model.replace(model.find("ACCGRAV/JGRAV=-10\n"), std::string("ACCGRAV/JGRAV=-10\n").size(), slope);
+    const RunResult r = run(model, "SIMULATE/STATICS\n");
+    EXPECT_EQ(r.status, 2) << option;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("nothing holds PART/2 against the force (6, 0, 0)"), HasSubstr(says)));
+  }
+}
+
 // The search tries bristles that are bent farther than they go: what is said is the most that they bear.
 TEST_F(FrictionCases, of_bristles_that_bear_by_how_far_they_bend_is_said_at_most) {
   for (const char* law : {"", ", FORMULATION=LUGRE"}) {

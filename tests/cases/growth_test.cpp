@@ -92,7 +92,7 @@ TEST_F(Growth, near_ids_are_named_as_ever) {
   const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
   const RunResult r =
       run(slider(0, "0", markers + "SPRINGDAMPER/1, TRANSLATIONAL, I=121, J=1, K=1\n"), "LINEAR/EIGENSOL\n");
-  EXPECT_THAT(r.err, HasSubstr("hint: MARKER/1211 and MARKER/21 and MARKER/5121 exist"));
+  EXPECT_THAT(r.err, HasSubstr("hint: MARKER/1211, MARKER/21 and MARKER/5121 exist"));
 }
 
 TEST_F(Growth, markers_that_refer_to_a_circle_or_to_a_faulty_marker_are_reported_once) {

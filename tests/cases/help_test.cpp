@@ -1,6 +1,7 @@
 // dynalin help and dynalin explain: every name has a page, every code has advice, slips find what was meant.
 #include "command/help.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -167,6 +168,42 @@ TEST(Help, takes_commands_as_they_are_written) {
   EXPECT_EQ(help("LINEAR/EIGENSOL").status, done);
 }
 
+TEST(Help, finds_types_and_arguments_by_their_beginning) {
+  const Printed hinge = help("rev");
+  EXPECT_EQ(hinge.status, done);
+  EXPECT_THAT(hinge.out, AllOf(HasSubstr("JOINT/id, REVOLUTE, arguments\n"), HasSubstr("Hinge"),
+                               HasSubstr("marker on the first body"), Not(HasSubstr("types\n"))));
+  for (const auto name : {"joint revolute", "joint/revolute", "jo/rev", "JOINT/5, REVOLUTE, I=20", "JOINT, rev"})
+    EXPECT_EQ(help(name).out, hinge.out) << name;
+  EXPECT_THAT(help("spher").out, HasSubstr("JOINT/id, SPHERICAL"));
+  EXPECT_THAT(help("sfor trans").out, AllOf(HasSubstr("SFORCE/id, TRANSLATIONAL"), Not(HasSubstr("JOINT"))));
+  EXPECT_EQ(help("eigens").out, help("EIGENSOL").out);
+  EXPECT_EQ(help("part/2, mass=3").out, help("PART").out);
+  EXPECT_EQ(help("part/list").out, help("PART").out);
+  EXPECT_EQ(help("deactivate/joint").out, help("DEACTIVATE").out);
+  // Every type by itself, under each of its statements.
+  for (const Kind* kind : catalogue()) {
+    if (kind->variant.empty()) continue;
+    const Printed page = help(fmt::format("{}/{}", kind->statement, kind->variant));
+    EXPECT_EQ(page.status, done) << kind->variant;
+    EXPECT_THAT(page.out, AllOf(HasSubstr(fmt::format("{}/id, {}", kind->statement, kind->variant)),
+                                HasSubstr(std::string(kind->summary))));
+  }
+}
+
+TEST(Help, says_what_a_beginning_could_be) {
+  const Printed r = help("sp");
+  EXPECT_EQ(r.status, wrong_usage);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("sp may be short for several names"), HasSubstr("SPLINE, SPRINGDAMPER"),
+                           HasSubstr(" and SPHERICAL\n")));
+  const Printed hinge = help("joint/hinge");
+  EXPECT_EQ(hinge.status, wrong_usage);
+  EXPECT_THAT(hinge.err, AllOf(HasSubstr("JOINT has no type or argument hinge"), HasSubstr("REVOLUTE, TRANSLATIONAL")));
+  EXPECT_THAT(help("linear eigensoll").err,
+              AllOf(HasSubstr("has no argument eigensoll"), HasSubstr("EIGENSOL exists")));
+  EXPECT_THAT(help("nodampinn").err, HasSubstr("NODAMPIN exists"));
+}
+
 TEST(Help, names_what_is_near_to_an_unknown_word) {
   const Printed r = help("BUSHIGN");
   EXPECT_EQ(r.status, wrong_usage);
@@ -196,6 +233,21 @@ TEST(Explain, says_more_than_the_message) {
   const Printed slip = explain("unknwon-marker");
   EXPECT_EQ(slip.status, wrong_usage);
   EXPECT_THAT(slip.err, HasSubstr("unknown-marker exists"));
+}
+
+TEST(Explain, finds_a_code_by_a_word_of_its_message) {
+  const Printed list = explain("Drawn");
+  EXPECT_EQ(list.status, done);
+  EXPECT_THAT(list.out, AllOf(HasSubstr("\ndrawn-open "), HasSubstr("\nskew-axes "),
+                              HasSubstr("says what to do about one of them"), Not(HasSubstr("unknown-marker"))));
+  // One alone is explained.
+  EXPECT_EQ(explain("DRAWN constraint").out, explain("drawn-open").out);
+  for (const Explanation& e : explanations()) {
+    const Printed r = explain(e.text);
+    EXPECT_THAT(r.out, HasSubstr(std::string(e.code))) << e.text;
+  }
+  EXPECT_EQ(explain("statics found no point of rest").out, explain("no-equilibrium").out);
+  EXPECT_EQ(explain("zyxwv").status, wrong_usage);
 }
 
 // A code that nothing reports has no business in the list, and every code that is reported is listed.

@@ -130,6 +130,9 @@ TEST_F(NestedFiles, standard_input_is_a_command_file) {
 TEST_F(NestedFiles, a_first_line_that_names_no_file_is_told_what_it_should_be) {
   EXPECT_THAT(commands("model create model_name=car\nout\nLINEAR/EIGENSOL\n").err,
               HasSubstr("hint: the first line of a command file is the name of its dataset"));
+  EXPECT_THAT(commands("Time\nLINEAR/EIGENSOL\n").err,
+              HasSubstr("is the name of its dataset; behind an empty line Time is a command\n"));
+  EXPECT_THAT(commands("timer\n").err, HasSubstr("is the name of its dataset\n"));
 }
 
 // What a file is, is told by what it holds.

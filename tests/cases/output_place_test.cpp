@@ -93,6 +93,14 @@ TEST_F(OutputPlaces, are_not_named_where_nothing_is_to_be_said) {
   options.commands = {"linear/eigensol"};
   options.quiet = true;
   EXPECT_EQ(ran(options).out, "");
+  // Warnings and errors are said, whatever fails, and nothing besides.
+  options.commands = {"info/disp, i=20", "time", "lsolver/umf", "equilibrium/list", "simulate/dynamics, end=-1"};
+  const Ran failed = ran(options);
+  EXPECT_EQ(failed.status, 2);
+  EXPECT_EQ(failed.out, "");
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("warning: nothing here acts on LSOLVER/UMF"),
+                                HasSubstr("error: simulate/dynamics, end=-1 failed"), Not(HasSubstr("wrote"))));
+  options.commands = {"linear/eigensol"};
   options.quiet = false;
   options.json = "-";
   EXPECT_THAT(ran(options).out, AllOf(HasSubstr("{\n \"results\""), Not(HasSubstr("wrote"))));

@@ -40,7 +40,8 @@ TEST_F(Settings, of_every_statement_are_read) {
       "GRAPHICS/1, BOX, CORNER=20, X=20, Y=-10, Z=5\ngra/2, cylind, cm=20, len=50, r=4, seg=20, sides=10\n"
       "GRAPHICS/3, SPDP, I=20, J=1, COILS=10, DA=8\nGRAPHICS/4, OUTLINE=20,21\nGRAPHICS/5, FORCE, ETYPE=SFORCE, EID=7, "
       "EMARKER=20\nGRAPHICS/6, EXTERNAL, RM=20, FILE=a.xmt_txt, ELEMENT=SHELL_10, FACETING_TOLERANCE=300\n"
-      "MREQUEST/1, WHAT=EVER\nMATERIAL/1, NAME=steel, Hardness=3\nMATERIAL/2, HARDNESS=4\nFEMDATA/1, LOADS\nFEMDATA/2, "
+      "MREQUEST/1, DISPLACEMENT, PARTS=ALL\nMATERIAL/1, NAME=steel, Hardness=3\nMATERIAL/2, HARDNESS=4\nFEMDATA/1, "
+      "LOADS\nFEMDATA/2, "
       "STRAIN\n");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(count(r.err, "nothing here acts on"), 1u) << r.err;

@@ -41,17 +41,23 @@ class Help final : public CommandAction {
 std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   const auto& arguments = reader.statement().arguments;
   const bool menu = reader.statement().name == "MENU";
-  const std::size_t most = menu ? 0 : 1;
-  if (arguments.size() > most || (!arguments.empty() && arguments.front().has_value)) {
-    reader.error("unknown-argument", arguments[std::min(most, arguments.size() - 1)].name,
-                 menu ? "MENU takes no arguments" : "HELP takes one name");
+  const std::size_t most = menu ? 0 : 2;
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    if (k < most && !arguments[k].has_value) continue;
+    reader.error("unknown-argument", arguments[k].name,
+                 menu ? "MENU takes no arguments" : "HELP takes a name, or one and a type of it");
     return nullptr;
   }
-  return std::make_shared<Help>(arguments.empty() ? std::string() : std::string(arguments.front().name.text()), menu);
+  return std::make_shared<Help>(help_name(reader.statement()), menu);
 }
 
 constexpr std::array<ArgumentInfo, 1> help_arguments = {
-    {{"name", false, true, ValueKind::none, {}, "a statement, command or function; without one the list of all"}}};
+    {{"name",
+      false,
+      true,
+      ValueKind::none,
+      {},
+      "a statement, command or function, or one and a type of it; without one the list of all"}}};
 
 constexpr std::array kinds = {
     CommandKind{.name = "HELP",

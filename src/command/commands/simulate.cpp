@@ -28,6 +28,7 @@ struct Written {
   std::optional<std::int64_t> steps;
 
   using W = Written;
+  static constexpr double latest = 1e100;  // squares of times, and accelerations by them, are numbers
   static constexpr std::string_view level = "with INITIAL_CONDITIONS: the last level that is made";
   static constexpr std::array<Argument<W>, 12> arguments = {{
       {.name = "INITIAL_CONDITIONS",
@@ -44,10 +45,25 @@ struct Written {
       {.name = "DISPLACEMENT", .slot = &W::displacement, .help = level},
       {.name = "VELOCITY", .slot = &W::velocity, .help = level},
       {.name = "ACCELERATION", .slot = &W::acceleration, .help = level},
-      {.name = "END", .slot = &W::end, .unit = "time", .help = "the time at which it ends", .ends = "DURATION"},
-      {.name = "DURATION", .slot = &W::duration, .unit = "time", .help = "how long it goes on", .ends = "END"},
+      {.name = "END",
+       .slot = &W::end,
+       .unit = "time",
+       .help = "the time at which it ends",
+       .maximum = latest,
+       .ends = "DURATION"},
+      {.name = "DURATION",
+       .slot = &W::duration,
+       .unit = "time",
+       .help = "how long it goes on",
+       .maximum = latest,
+       .ends = "END"},
       {.name = "DTOUT", .slot = &W::step, .unit = "time", .help = "time between outputs", .ends = "STEPS"},
-      {.name = "STEPS", .slot = &W::steps, .minimum = 1, .help = "number of outputs behind the start", .ends = "DTOUT"},
+      {.name = "STEPS",
+       .slot = &W::steps,
+       .minimum = 1,
+       .help = "number of outputs behind the start",
+       .maximum = static_cast<double>(OutputTimes::most),
+       .ends = "DTOUT"},
   }};
 };
 

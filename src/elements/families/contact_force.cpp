@@ -384,8 +384,10 @@ void ContactKernel::exhausted(const Motion& motion, std::vector<std::string>& se
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Placed& p = forces_[k];
     if (!p.law->friction || !is_closed(*p.law, plain(pair_motion(motion, *p.I, *p.J)))) continue;
-    sentences.push_back(
-        fmt::format("friction of {} goes by the speed of slip and holds nothing at rest", (*labels_)[k].full_text()));
+    sentences.push_back(fmt::format("friction of {} {}", (*labels_)[k].full_text(),
+                                    p.law->friction_in_statics
+                                        ? "goes by the speed of slip and holds nothing at rest"
+                                        : "is left out of statics by DYNAMICS_ONLY, and would hold nothing at rest"));
   }
 }
 

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/enumeration.h"
 #include "elements/families/friction_coefficients.h"
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
@@ -159,7 +160,7 @@ void warn_of_unread(std::initializer_list<std::string_view> arguments, std::stri
   }
   if (written.empty()) return;
   reader.warning("unread-argument", reader.at(written.front()),
-                 fmt::format("{} of {} {} nothing with {}", fmt::join(written, " and "), reader.label().text(),
+                 fmt::format("{} of {} {} nothing with {}", enumeration(written), reader.label().text(),
                              written.size() == 1 ? "says" : "say", beside));
 }
 

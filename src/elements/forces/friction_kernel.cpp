@@ -194,7 +194,13 @@ void JointFrictionKernel::exhausted(const Motion& motion, std::vector<std::strin
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
     const JointFriction& f = *p.element;
-    if (!p.joint || p.first_state < 0 || f.rests_in_statics) continue;
+    if (!p.joint) continue;
+    if (f.rests_in_statics || p.first_state < 0) {
+      sentences.push_back(fmt::format("{} of JOINT/{} {}", (*labels_)[k].full_text(), f.joint,
+                                      f.rests_in_statics ? "is left out of statics by INACTIVE=STATIC"
+                                                         : "has no bristles, and holds nothing at rest"));
+      continue;
+    }
     const Evaluated at = Evaluated::at(p, pair_motion(motion, *p.I, *p.J), motion);
     std::array<double, Evaluated::most_components> bent{}, borne{}, tried{};
     for (std::size_t c = 0; c < f.component_count(); ++c) {

@@ -159,7 +159,8 @@ class ManyRequestsSet final : public TypedSet<ManyRequests> {
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    leniently(reader, [&] { return read_arguments(elements[k], reader) && read_groups(elements[k], reader); });
+    if (!read_arguments(elements[k], reader)) return;
+    leniently(reader, [&] { return read_groups(elements[k], reader); });
   }
   std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
     return std::make_unique<ManyRequestsKernel>(model, elements, labels, layout);

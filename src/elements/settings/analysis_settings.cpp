@@ -1,8 +1,8 @@
 #include "elements/settings/analysis_settings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/enumeration.h"
 #include "dataset/characters.h"
 #include "elements/settings/setting_set.h"
 
@@ -36,9 +36,9 @@ bool check_words(const std::vector<std::string>& written, const std::array<std::
                  std::string_view argument, ElementReader& reader) {
   for (const std::string& w : written) {
     if (found(words, w)) continue;
-    reader.error("unknown-word", reader.at(argument),
-                 fmt::format("{} of {} takes {}, not {}", argument, reader.label().statement,
-                             fmt::join(words, n == 2 ? " or " : ", "), w));
+    reader.error(
+        "unknown-word", reader.at(argument),
+        fmt::format("{} of {} takes {}, not {}", argument, reader.label().statement, enumeration(words, "or"), w));
     return false;
   }
   return true;

@@ -356,7 +356,7 @@ struct WrittenPreferences {
 
   using E = WrittenPreferences;
   static constexpr std::array<Argument<E>, 14> arguments = {{
-      {.name = "SOLVER", .slot = &E::solver, .help = "F77 or CXX"},
+      {.name = "SOLVER", .slot = &E::solver, .help = "F77 or FORTRAN, which bring a remark, or CXX"},
       {.name = "LIST", .slot = &E::flag},
       {.name = "STATUS_MESSAGE",
        .slot = &E::status_message,
@@ -376,10 +376,11 @@ struct WrittenPreferences {
   static constexpr std::array<std::string_view, 4> acting = {"SOLVER", "LIST", "SIMEXIT", "STATUS_MESSAGE"};
   bool check(ElementReader&) const;
   void note(Diagnostics& remarks) const {
-    if (solver.empty() || !(solver.front().starts_with("F77") || solver.front().starts_with("FOR"))) return;
+    if (solver.empty() || !solver.front().starts_with('F')) return;  // F77 or FORTRAN
     remarks.warning("fortran-solver", {},
-                    "PREFERENCES/SOLVER=F77 asks for the FORTRAN solver: LINEAR with ORIGINAL gives the states and the "
-                    "coupling of that solver");
+                    "PREFERENCES/SOLVER=" + solver.front() +
+                        " asks for the FORTRAN solver: LINEAR with ORIGINAL gives the states and the coupling of that "
+                        "solver");
   }
   // The session is no matter of the dataset.
   void apply(Settings& s) const {

@@ -37,13 +37,15 @@ class MaterialSet final : public TypedSet<Material> {
 
   void read(std::size_t k, ElementReader& reader) override {
     for (const WrittenArgument& w : reader.statement().arguments) {
-      const auto row = find_keyword(w.name.text(), detail::argument_names<Material>);
-      if (row) {
-        detail::read_argument(elements[k], Material::arguments[*row], w, reader);
-      } else if (!elements[k].other.source) {
-        elements[k].other = w.name;
+      if (is_foreign(w.name.text())) {
+        if (!elements[k].other.source) elements[k].other = w.name;
+        passed_over_.push_back("MATERIAL/" + upper_case(w.name.text()));
+        continue;
       }
-      if (!row) passed_over_.push_back("MATERIAL/" + upper_case(w.name.text()));
+      const auto row =
+          detail::find_argument(w, detail::argument_infos<Material>, detail::argument_names<Material>, reader);
+      if (row && *row < Material::arguments.size())
+        detail::read_argument(elements[k], Material::arguments[*row], w, reader);
     }
   }
   void finish(Model& model, Diagnostics&) override {
@@ -51,6 +53,12 @@ class MaterialSet final : public TypedSet<Material> {
   }
 
  private:
+  // Neither an argument nor the slip of a pen that meant one.
+  static bool is_foreign(std::string_view name) {
+    const std::span<const std::string_view> names = detail::argument_names<Material>;
+    return !find_keyword(name, names) && nearest_word(name, names).empty();
+  }
+
   std::vector<std::string> passed_over_;
 };
 

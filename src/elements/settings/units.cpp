@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "base/enumeration.h"
 #include "elements/settings/time_unit.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -112,7 +113,7 @@ const Entry* look_up(const std::array<Entry, n>& table, const std::vector<std::s
   if (!tied.empty()) {
     reader.error("unknown-unit", reader.at(argument),
                  fmt::format("{} may mean several units of {}", word.front(), argument),
-                 fmt::format("it could be {}", fmt::join(tied, " or ")));
+                 fmt::format("it could be {}", enumeration(tied, "or")));
     return nullptr;
   }
   const auto meant = name_of_symbol(word.front(), names);
