@@ -13,7 +13,20 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr char end_of_dos_text = '\x1A';  // Ctrl-Z, one or as many as filled a block of a disk
 
-bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+// Lines end with LF, CR LF or CR. A line end at the very end of the text starts no further line.
+std::vector<std::uint32_t> starts_of_lines(std::string_view text) {
+  std::vector<std::uint32_t> starts;
+  starts.reserve(static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1);
+  starts.push_back(0);
+  std::size_t line_feed = std::min(text.find('\n'), text.size());
+  for (std::size_t begin = 0; begin < text.size();) {
+    if (line_feed < begin) line_feed = std::min(text.find('\n', begin), text.size());
+    const std::size_t end = std::min(text.substr(begin, line_feed - begin).find('\r'), line_feed - begin) + begin;
+    begin = end + 1 == line_feed ? line_feed + 1 : end + 1;
+    if (begin < text.size()) starts.push_back(static_cast<std::uint32_t>(begin));
+  }
+  return starts;
+}
 
 }  // namespace
 
@@ -23,15 +36,7 @@ SourceText::SourceText(std::string name, std::string text) : name_(std::move(nam
   if (text_.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw std::length_error(name_ + " is longer than 4 GiB");
   }
-  // Lines end with LF, CR LF or CR. A line end at the very end of the text starts no further line.
-  const auto ends = std::max(std::ranges::count(text_, '\n'), std::ranges::count(text_, '\r'));
-  line_starts_.reserve(static_cast<std::size_t>(ends) + 1);
-  line_starts_.push_back(0);
-  for (std::size_t i = 0; i < text_.size(); ++i) {
-    if (!is_line_end(text_[i])) continue;
-    if (text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n') ++i;
-    if (i + 1 < text_.size()) line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
-  }
+  line_starts_ = starts_of_lines(text_);
 }
 
 SourceText::Place SourceText::place(std::uint32_t offset) const {

@@ -32,17 +32,24 @@ bool is_unit(std::string_view word) {
   return std::find(units.begin(), units.end(), word) != units.end();
 }
 
+// Before the last digits of a number stands the letter or the sign of its exponent, if it has one.
+bool has_exponent(std::string_view number) {
+  if (!number.empty() && to_upper(number.back()) == 'D') number.remove_suffix(1);  // degrees
+  while (!number.empty() && is_digit(number.back())) number.remove_suffix(1);
+  return !number.empty() && std::string_view("eE+-").find(number.back()) != std::string_view::npos;
+}
+
 class ArgumentSplitter {
  public:
   ArgumentSplitter(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
-                   Diagnostics& diagnostics)
-      : tokens_(tokens), statement_(statement), source_(source), diagnostics_(diagnostics) {
+                   Diagnostics& diagnostics, SplitArguments& result)
+      : tokens_(tokens), statement_(statement), source_(source), diagnostics_(diagnostics), result_(result) {
     match_parentheses();
   }
 
-  SplitArguments split() {
-    constexpr std::size_t usual = 8;
-    result_.arguments.reserve(usual);
+  void split() {
+    result_.arguments.clear();
+    result_.damaged = false;
     while (skip_separators()) {
       if (word_at(at_)) {
         read_argument();
@@ -50,7 +57,6 @@ class ArgumentSplitter {
         report_unexpected("an argument is expected here");
       }
     }
-    return std::move(result_);
   }
 
  private:
@@ -108,16 +114,17 @@ class ArgumentSplitter {
   Diagnostics& diagnostics_;
   std::vector<std::size_t> match_;  // the partner of each parenthesis and bracket; empty if there is none
   std::size_t at_ = 0;
-  SplitArguments result_;
+  SplitArguments& result_;
 };
 
 void ArgumentSplitter::match_parentheses() {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
     if (tokens_[i].kind != TokenKind::symbol) continue;
-    if (symbol_at(i, '(') || symbol_at(i, '[')) open.push_back(i);
-    const bool round = symbol_at(i, ')');
-    if (!round && !symbol_at(i, ']')) continue;
+    const char symbol = source_.text()[tokens_[i].offset];
+    if (symbol == '(' || symbol == '[') open.push_back(i);
+    const bool round = symbol == ')';
+    if (!round && symbol != ']') continue;
     if (open.empty() || !symbol_at(open.back(), round ? '(' : '[')) continue;
     if (match_.empty()) match_.assign(tokens_.size(), unmatched);
     match_[i] = open.back();
@@ -256,7 +263,9 @@ std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
   WrittenArgument& argument = draft.argument;
   std::size_t i = draft.begin;
   while (i < tokens_.size() && !symbol_at(i, '\\')) {
-    if (symbol_at(i, ',')) {
+    if (tokens_[i].kind == TokenKind::number) {
+      ++i;
+    } else if (symbol_at(i, ',')) {
       std::size_t next = after_comma(i);
       while (symbol_at(next, ',')) next = after_comma(next);
       if (value_ends_at_comma(draft.begin, i, next, argument)) return i;
@@ -289,7 +298,9 @@ std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
 // `next` is the first token behind the comma and all commas that follow it.
 bool ArgumentSplitter::value_ends_at_comma(std::size_t begin, std::size_t comma, std::size_t next,
                                            const WrittenArgument& argument) const {
-  if (comma == begin || separator_or_end_at(next) || assignment_at(next)) return true;
+  if (comma == begin) return true;
+  if (next < tokens_.size() && tokens_[next].kind == TokenKind::number) return false;  // a list, as most values are
+  if (separator_or_end_at(next) || assignment_at(next)) return true;
   // Inside of what a missing parenthesis left open, a lone word is rather an operand.
   if (argument.damaged || !word_at(next)) return false;
   const bool expression_is_open = tokens_[comma].continuation && !ends_operand(comma - 1);
@@ -341,16 +352,17 @@ void ArgumentSplitter::check_number(ArgumentDraft& draft, std::size_t i) {
   // Only very long numbers and those with an exponent may be out of the range of double.
   constexpr std::uint32_t short_number = 300;
   const std::string_view text = token_text(tokens_[i], source_);
-  if (tokens_[i].length > short_number || text.find_first_of("eE") != std::string_view::npos) {
+  if (tokens_[i].length > short_number || has_exponent(text)) {
     const double value = token_value(tokens_[i], source_);
     if (std::isinf(value)) damage(draft.argument, "number-overflow", i, "this number is too large");
     const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));
     if (value == 0 && mantissa.find_first_of("123456789") != std::string_view::npos)
       diagnostics_.warning("number-underflow", span(i), "this number is too small and is read as 0");
   }
+  if (!tokens_[i].degrees) return;
   const bool sign = symbol_at(i + 1, '+') || symbol_at(i + 1, '-');
-  const bool like_exponent = tokens_[i].degrees && sign && i + 2 < draft.end && tokens_[i + 2].integer &&
-                             !blank_before(i + 1) && !blank_before(i + 2);
+  const bool like_exponent =
+      sign && i + 2 < draft.end && tokens_[i + 2].integer && !blank_before(i + 1) && !blank_before(i + 2);
   // Written as nobody writes an exponent, and going on as a sum does: 30D+2*TIME.
   const auto is_sum = [&] {
     const std::string_view next = i + 3 < draft.end ? token_text(tokens_[i + 3], source_) : " ";
@@ -375,9 +387,9 @@ void ArgumentSplitter::damage(WrittenArgument& argument, std::string_view code, 
 
 }  // namespace
 
-SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
-                               Diagnostics& diagnostics) {
-  return ArgumentSplitter(tokens, statement, source, diagnostics).split();
+void split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
+                     Diagnostics& diagnostics, SplitArguments& result) {
+  ArgumentSplitter(tokens, statement, source, diagnostics, result).split();
 }
 
 }  // namespace dynalin

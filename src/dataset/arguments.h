@@ -22,8 +22,9 @@ struct SplitArguments {
   bool damaged = false;                    // an error was reported
 };
 
-// `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown.
-SplitArguments split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
-                               Diagnostics& diagnostics);
+// `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown. What `result` held
+// before is gone, its memory is used again.
+void split_arguments(std::span<const Token> tokens, std::string_view statement, const SourceText& source,
+                     Diagnostics& diagnostics, SplitArguments& result);
 
 }  // namespace dynalin

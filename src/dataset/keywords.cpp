@@ -88,7 +88,10 @@ std::optional<std::size_t> find_keyword(std::string_view word, std::span<const s
   if (word.empty()) return std::nullopt;
   std::optional<std::size_t> first;
   std::size_t count = 0;
+  const char letter = to_upper(word.front());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
+    // Most are passed over by their first letter: every argument of a dataset is looked up here.
+    if (candidates[i].empty() || to_upper(candidates[i].front()) != letter) continue;
     if (!begins_with_ignoring_case(candidates[i], word)) continue;
     if (candidates[i].size() == word.size()) return i;
     if (!first) first = i;

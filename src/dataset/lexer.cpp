@@ -18,6 +18,12 @@ constexpr auto symbols = [] {
 }();
 constexpr bool is_symbol(char c) { return symbols[static_cast<unsigned char>(c)]; }
 
+constexpr auto word_parts = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte) table[byte] = is_word_part(static_cast<char>(byte));
+  return table;
+}();
+
 // A quote opens a quoted text only where a value may begin, so that the one in `Peter's` does not.
 constexpr bool may_open_quote(char previous) {
   return is_blank(previous) || is_line_end(previous) || is_symbol(previous);
@@ -125,11 +131,11 @@ void Lexer::scan_token(std::vector<Token>& tokens) {
   if (is_digit(c) || point_and_digit) return scan_number(tokens);
   if (is_word_start(c)) {
     std::size_t end = at_ + 1;
-    while (end < text_.size() && is_word_part(text_[end])) ++end;
+    while (end < text_.size() && word_parts[static_cast<unsigned char>(text_[end])]) ++end;
     return push(tokens, TokenKind::word, end - at_);
   }
   if (is_symbol(c)) {
-    const bool power = text_.substr(at_, 2) == "**";
+    const bool power = c == '*' && at_ + 1 < text_.size() && text_[at_ + 1] == '*';
     return push(tokens, TokenKind::symbol, power ? 2 : 1);
   }
   scan_other(tokens);
@@ -165,16 +171,17 @@ void Lexer::scan_other(std::vector<Token>& tokens) {
 }
 
 void Lexer::push(std::vector<Token>& tokens, TokenKind kind, std::size_t length) {
-  // What is longer than a token can be becomes several, none of which is what it was meant to be.
-  do {
-    const std::size_t part = std::min<std::size_t>(length, Token::longest);
+  const auto push_one = [&](std::size_t part) {
     Token token;
-    token.kind = kind;
     token.offset = static_cast<std::uint32_t>(at_);
     token.length = static_cast<std::uint32_t>(part) & Token::longest;
+    token.kind = kind;
     tokens.push_back(token);
-    at_ += part, length -= part;
-  } while (length > 0);
+    at_ += part;
+  };
+  // What is longer than a token can be becomes several, none of which is what it was meant to be.
+  for (; length > Token::longest; length -= Token::longest) push_one(Token::longest);
+  push_one(length);
 }
 
 }  // namespace dynalin

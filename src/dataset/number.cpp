@@ -79,10 +79,10 @@ double number_value(std::string_view text) {
     for (const char c : text) value = 10 * value + (c - '0');
     return value;
   }
-  const std::size_t d = text.find_first_of("dD");
-  if (d == std::string_view::npos) return convert(text);
+  const auto d = std::ranges::find_if(text, [](char c) { return c == 'd' || c == 'D'; });
+  if (d == text.end()) return convert(text);
   std::string with_e(text);
-  with_e[d] = 'E';
+  with_e[static_cast<std::size_t>(d - text.begin())] = 'E';
   return convert(with_e);
 }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 
 #include "dataset/characters.h"
 
@@ -63,6 +66,15 @@ constexpr auto raw_arguments = std::to_array<RawArgument>({
     {"PREFERENCES", "CONTACT_GEOMETRY_LIBRARY", 9},
 });
 
+// Which rows begin with a letter, a bit each: every argument of a dataset is looked for, and few are here.
+constexpr auto rows_of_letter = [] {
+  std::array<std::uint64_t, 256> rows{};
+  static_assert(raw_arguments.size() <= 64);
+  for (std::size_t k = 0; k < raw_arguments.size(); ++k)
+    rows[static_cast<unsigned char>(raw_arguments[k].full.front())] |= std::uint64_t{1} << k;
+  return rows;
+}();
+
 constexpr auto after_comment =
     std::to_array<std::string_view>({"I", "J", "RM", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "FUNCTION",
                                      "TITLE", "CNAMES", "CUNITS", "CLABELS", "RESULTS_NAME", "VARIABLES"});
@@ -83,8 +95,8 @@ constexpr auto after_text_list = std::to_array<Follower>({{"REQUEST", "DISPLACEM
 ValueForm value_form(std::string_view statement, std::string_view argument) {
   if (argument.empty()) return ValueForm::tokens;
   const char first = to_upper(argument.front());
-  for (const RawArgument& raw : raw_arguments) {
-    if (raw.full.front() != first) continue;
+  for (std::uint64_t rows = rows_of_letter[static_cast<unsigned char>(first)]; rows != 0; rows &= rows - 1) {
+    const RawArgument& raw = raw_arguments[static_cast<std::size_t>(std::countr_zero(rows))];
     if (argument.size() < raw.minimum || !begins_with_ignoring_case(raw.full, argument)) continue;
     if (raw.statement.empty() || raw.statement == statement) return raw.form;
   }

@@ -54,6 +54,7 @@ class StatementReader {
   Parsed<Dataset> finish() { return {std::move(dataset_), std::move(diagnostics_)}; }
 
  private:
+  std::string_view first_line() const { return text_.text().substr(0, text_.text().find_first_of("\r\n")); }
   bool first_line_is_statement() const;
   bool is_end(std::span<const Token> tokens) const;
   void report_text_behind_end(std::span<const Token> tokens);
@@ -71,6 +72,7 @@ class StatementReader {
   const SourceText& text_;
   Dataset dataset_;
   Diagnostics diagnostics_;
+  SplitArguments split_;  // of the statement in hand
   std::uint32_t start_ = 0;
   bool ended_ = false;
   bool last_is_open_ = false;  // the last statement ends in a comma or an operator
@@ -100,7 +102,7 @@ bool StatementReader::check_is_text() {
 bool StatementReader::first_line_is_statement() const {
   Lexer lexer(text_, 0);
   std::vector<Token> tokens;
-  if (!lexer.next_statement(tokens) || text_.place(tokens[0].offset).line != 1) return false;
+  if (!lexer.next_statement(tokens) || tokens[0].offset >= first_line().size()) return false;
   if (tokens.size() < 2 || tokens[0].kind != TokenKind::word) return false;
   const std::string_view word = token_text(tokens[0], text_);
   if (!is_symbol(tokens[1], text_, '/') || statement_name(word).empty()) return false;
@@ -113,13 +115,13 @@ bool StatementReader::first_line_is_statement() const {
 
 void StatementReader::read_title() {
   if (first_line_is_statement()) {
-    const std::size_t length = text_.line(1).size();
+    const std::size_t length = first_line().size();
     diagnostics_.warning("missing-title", {&text_, 0, static_cast<std::uint32_t>(length)},
                          "the first line should be the title and is read as a statement",
                          "put a line with a title before it");
     return;
   }
-  std::string_view title = text_.line(1);
+  std::string_view title = first_line();
   start_ = static_cast<std::uint32_t>(title.size());
   std::size_t end = std::min(title.size(), longest_title);
   // A character of several bytes is kept whole or not at all.
@@ -340,11 +342,10 @@ std::size_t StatementReader::read_id(std::span<const Token> tokens, Statement& s
 
 void StatementReader::read_arguments(std::span<const Token> tokens, Statement& statement) {
   Diagnostics ignored;  // of an unknown statement, which has its one error already
-  SplitArguments split =
-      split_arguments(tokens, statement.name, text_, statement.name.empty() ? ignored : diagnostics_);
-  statement.damaged = statement.damaged || split.damaged;
-  statement.arguments.reserve(split.arguments.size());
-  for (WrittenArgument& argument : split.arguments) {
+  split_arguments(tokens, statement.name, text_, statement.name.empty() ? ignored : diagnostics_, split_);
+  statement.damaged = statement.damaged || split_.damaged;
+  statement.arguments.reserve(split_.arguments.size());
+  for (WrittenArgument& argument : split_.arguments) {
     if (!argument.value().empty()) argument.set_value(dataset_.tokens.add(argument.value()));
     statement.arguments.push_back(argument);
   }

@@ -21,36 +21,37 @@ struct WrittenReal {
 
 std::string_view name_of(const WrittenArgument& argument) { return argument.name.text(); }
 
-// False if there is nothing to read, which is reported here unless it was before.
-bool has_readable_value(const WrittenArgument& argument, std::string_view what, Diagnostics& diagnostics) {
+// So many numbers, or any number of them.
+struct Wanted {
+  std::size_t count = 0;  // 0: any
+  std::string_view noun = "number";
+
+  explicit operator std::string() const {
+    return count == 0   ? fmt::format("{}s", noun)
+           : count == 1 ? fmt::format("one {}", noun)
+                        : fmt::format("{} {}s", count, noun);
+  }
+};
+
+// False if there is nothing to read, which is reported here unless it was before. What is wanted becomes a text only
+// then.
+template <class What>
+bool has_readable_value(const WrittenArgument& argument, const What& what, Diagnostics& diagnostics) {
   if (argument.damaged) return false;
   if (argument.has_value && !argument.value().empty()) return true;
-  diagnostics.error("missing-value", argument.name, fmt::format("{} needs {}", name_of(argument), what),
+  diagnostics.error("missing-value", argument.name, fmt::format("{} needs {}", name_of(argument), std::string(what)),
                     fmt::format("write {} = ...", name_of(argument)));
   return false;
 }
 
-// Numbers with commas between them. Reads as far as it can, so that the first thing wrong is
-// reported.
+// Numbers with commas between them, one after the other. Whoever reads it goes on as far as it can, so that the first
+// thing wrong is reported.
 class NumberList {
  public:
   NumberList(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics)
       : argument_(argument), source_(source), diagnostics_(diagnostics) {}
 
-  std::optional<std::vector<WrittenReal>> read() {
-    std::vector<WrittenReal> numbers;
-    for (;;) {
-      const std::optional<WrittenReal> number = read_number();
-      if (!number) return std::nullopt;
-      numbers.push_back(*number);
-      if (at_ == tokens().size()) return numbers;
-      if (!read_comma()) return std::nullopt;
-    }
-  }
-
- private:
-  std::span<const Token> tokens() const { return argument_.value(); }
-  bool symbol_here(char symbol) const { return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol); }
+  bool at_end() const { return at_ == tokens().size(); }
 
   std::optional<WrittenReal> read_number() {
     const std::size_t begin = at_;
@@ -75,22 +76,6 @@ class NumberList {
     return WrittenReal{negative ? -value : value, token.integer, join(token_span(tokens()[begin], source_), at)};
   }
 
-  void report_missing(std::size_t begin) {
-    const Token& token = tokens()[std::min(begin, tokens().size() - 1)];
-    diagnostics_.error("missing-value", token_span(token, source_),
-                       fmt::format("a number is missing in the list of {}", name_of(argument_)));
-  }
-
-  // What stands behind a number without a comma.
-  const char* hint_for(const Token& token) const {
-    const std::string_view word = token_span(token, source_).text();
-    const bool exponent = word.size() > 1 && (word[0] == 'd' || word[0] == 'D') &&
-                          std::all_of(word.begin() + 1, word.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (exponent) return "D behind a number means degrees; the letter of an exponent is E";
-    const bool is_word = token.kind == TokenKind::word;
-    return is_word ? "units are not written behind numbers; UNITS states them for the whole dataset" : "";
-  }
-
   // A comma at the end of a line and the mark at the start of the next are one.
   bool read_comma() {
     if (symbol_here(',')) {
@@ -108,24 +93,51 @@ class NumberList {
     return false;
   }
 
+ private:
+  std::span<const Token> tokens() const { return argument_.value(); }
+  bool symbol_here(char symbol) const { return at_ < tokens().size() && is_symbol(tokens()[at_], source_, symbol); }
+
+  void report_missing(std::size_t begin) {
+    const Token& token = tokens()[std::min(begin, tokens().size() - 1)];
+    diagnostics_.error("missing-value", token_span(token, source_),
+                       fmt::format("a number is missing in the list of {}", name_of(argument_)));
+  }
+
+  // What stands behind a number without a comma.
+  const char* hint_for(const Token& token) const {
+    const std::string_view word = token_span(token, source_).text();
+    const bool exponent = word.size() > 1 && (word[0] == 'd' || word[0] == 'D') &&
+                          std::all_of(word.begin() + 1, word.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (exponent) return "D behind a number means degrees; the letter of an exponent is E";
+    const bool is_word = token.kind == TokenKind::word;
+    return is_word ? "units are not written behind numbers; UNITS states them for the whole dataset" : "";
+  }
+
   const WrittenArgument& argument_;
   const SourceText& source_;
   Diagnostics& diagnostics_;
   std::size_t at_ = 0;
 };
 
-std::optional<std::vector<WrittenReal>> read_numbers(const WrittenArgument& argument, const SourceText& source,
-                                                     Diagnostics& diagnostics, std::size_t count,
-                                                     std::string_view noun) {
-  const std::string what = count == 0   ? fmt::format("{}s", noun)
-                           : count == 1 ? fmt::format("one {}", noun)
-                                        : fmt::format("{} {}s", count, noun);
-  if (!has_readable_value(argument, what, diagnostics)) return std::nullopt;
-  auto numbers = NumberList(argument, source, diagnostics).read();
-  if (!numbers || count == 0 || numbers->size() == count) return numbers;
+// take(number) for each; false if anything is wrong, which is reported.
+template <class Take>
+bool read_numbers(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics,
+                  const Wanted& wanted, const Take& take) {
+  if (!has_readable_value(argument, wanted, diagnostics)) return false;
+  NumberList list(argument, source, diagnostics);
+  std::size_t found = 0;
+  for (;;) {
+    const std::optional<WrittenReal> number = list.read_number();
+    if (!number) return false;
+    take(*number);
+    ++found;
+    if (list.at_end()) break;
+    if (!list.read_comma()) return false;
+  }
+  if (wanted.count == 0 || found == wanted.count) return true;
   diagnostics.error("wrong-count", argument.value_span(),
-                    fmt::format("{} takes {}, found {}", name_of(argument), what, numbers->size()));
-  return std::nullopt;
+                    fmt::format("{} takes {}, found {}", name_of(argument), std::string(wanted), found));
+  return false;
 }
 
 // Whole numbers may be written as reals without fraction.
@@ -178,35 +190,37 @@ void report_not_a_word(const WrittenArgument& argument, const Token& token, cons
 }  // namespace
 
 std::optional<double> read_real(const WrittenArgument& argument, const SourceText& source, Diagnostics& diagnostics) {
-  const auto numbers = read_numbers(argument, source, diagnostics, 1, "number");
-  if (!numbers) return std::nullopt;
-  return numbers->front().value;
+  double value = 0;
+  const auto take = [&](const WrittenReal& number) { value = number.value; };
+  if (!read_numbers(argument, source, diagnostics, {1}, take)) return std::nullopt;
+  return value;
 }
 
 std::optional<std::vector<double>> read_reals(const WrittenArgument& argument, const SourceText& source,
                                               Diagnostics& diagnostics, std::size_t count) {
-  const auto numbers = read_numbers(argument, source, diagnostics, count, "number");
-  if (!numbers) return std::nullopt;
   std::vector<double> values;
-  values.reserve(numbers->size());
-  for (const WrittenReal& number : *numbers) values.push_back(number.value);
+  values.reserve((argument.value().size() + 1) / 2);  // a comma behind each but the last
+  const auto take = [&](const WrittenReal& number) { values.push_back(number.value); };
+  if (!read_numbers(argument, source, diagnostics, {count}, take)) return std::nullopt;
   return values;
 }
 
 std::optional<WrittenInteger> read_integer(const WrittenArgument& argument, const SourceText& source,
                                            Diagnostics& diagnostics) {
-  const auto numbers = read_numbers(argument, source, diagnostics, 1, "whole number");
-  if (!numbers) return std::nullopt;
-  return as_integer(argument, numbers->front(), diagnostics);
+  WrittenReal number{};
+  const auto take = [&](const WrittenReal& read) { number = read; };
+  if (!read_numbers(argument, source, diagnostics, {1, "whole number"}, take)) return std::nullopt;
+  return as_integer(argument, number, diagnostics);
 }
 
 std::optional<std::vector<WrittenInteger>> read_integers(const WrittenArgument& argument, const SourceText& source,
                                                          Diagnostics& diagnostics) {
-  const auto numbers = read_numbers(argument, source, diagnostics, 0, "whole number");
-  if (!numbers) return std::nullopt;
+  std::vector<WrittenReal> numbers;
+  const auto take = [&](const WrittenReal& number) { numbers.push_back(number); };
+  if (!read_numbers(argument, source, diagnostics, {0, "whole number"}, take)) return std::nullopt;
   std::vector<WrittenInteger> values;
-  values.reserve(numbers->size());
-  for (const WrittenReal& number : *numbers) {
+  values.reserve(numbers.size());
+  for (const WrittenReal& number : numbers) {
     const auto value = as_integer(argument, number, diagnostics);
     if (!value) return std::nullopt;
     values.push_back(*value);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -34,15 +36,17 @@ bool is_operator(std::string_view symbol) {
 }  // namespace
 
 ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics)
-    : source_(source),
+    : tokens_(tokens.first(
+          static_cast<std::size_t>(std::ranges::find(tokens, TokenKind::end, &Token::kind) - tokens.begin()))),
+      source_(source),
       diagnostics_(diagnostics),
       errors_before_(diagnostics.error_count()),
-      builder_(diagnostics),
+      builder_(diagnostics, tokens.size()),
       nowhere_{&source, tokens.empty() ? 0 : tokens.front().offset, 0} {
-  for (const Token& token : tokens) {
-    if (token.kind == TokenKind::end) break;
-    if (!token.continuation) tokens_.push_back(token);
-  }
+  const auto is_mark = [](const Token& token) { return token.continuation; };
+  if (std::ranges::none_of(tokens_, is_mark)) return;
+  std::ranges::remove_copy_if(tokens_, std::back_inserter(unmarked_), is_mark);
+  tokens_ = unmarked_;
 }
 
 std::shared_ptr<const ExpressionProgram> ExpressionParser::parse() {
@@ -257,7 +261,8 @@ Operand ExpressionParser::close_call(const Pending& call, const Span& at) {
   const std::span arguments = std::span(operands_).subspan(call.first_operand);
   const Function& f = *call.function;
   for (const Operand& argument : arguments) {
-    if (!check_scalar(argument, fmt::format("an argument of {}", f.name))) return builder_.placeholder(at);
+    if (argument.is_vector() && !check_scalar(argument, fmt::format("an argument of {}", f.name)))
+      return builder_.placeholder(at);
   }
   if (arguments.size() >= f.minimum_arguments && arguments.size() <= f.maximum_arguments) {
     return builder_.call(f, arguments, at);

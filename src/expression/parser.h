@@ -111,7 +111,8 @@ class ExpressionParser {
   Span span(std::size_t i) const;
   void syntax_error(std::string_view code, const Span& at, std::string message, std::string hint = {});
 
-  std::vector<Token> tokens_;  // without continuation marks
+  std::vector<Token> unmarked_;    // a copy without continuation marks, where there are any
+  std::span<const Token> tokens_;  // without continuation marks
   const SourceText& source_;
   Diagnostics& diagnostics_;
   std::size_t errors_before_;

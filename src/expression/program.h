@@ -40,8 +40,10 @@ struct ExpressionNode {
   };
   Kind kind = Kind::constant;
   std::int32_t a = 0, b = 0;
-  const Function* function = nullptr;
-  double constant = 0;
+  union {
+    double constant = 0;       // of a constant or a power
+    const Function* function;  // of a call
+  };
 };
 
 // Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.

@@ -49,6 +49,11 @@ std::string reason_for_no_value(const ExpressionNode& node, std::span<const doub
 
 }  // namespace
 
+ProgramBuilder::ProgramBuilder(Diagnostics& diagnostics, std::size_t words) : diagnostics_(diagnostics) {
+  program_.nodes.reserve(words);
+  program_.places.reserve(words);
+}
+
 std::int32_t ProgramBuilder::push(const ExpressionNode& node, const Span& at) {
   program_.nodes.push_back(node);
   program_.places.push_back(at);
@@ -85,29 +90,48 @@ Operand ProgramBuilder::placeholder(const Span& at) {
   return nothing;
 }
 
-Operand ProgramBuilder::atom(const Atom& atom) {
+// The place of an atom among those of the program, to which it is added if it is new.
+std::int32_t ProgramBuilder::index_of(const Atom& atom) {
   // An argument left out means 0, so DX(1) and DX(1,0) are the same.
-  const auto same = [&](const Atom& other) {
+  const auto is_same = [&](const Atom& other) {
     return other.function == atom.function && other.argument == atom.argument && other.delayed == atom.delayed;
   };
+  const auto hash = [](const Atom& a) {
+    std::size_t key = std::hash<const void*>{}(a.function) ^ std::hash<const void*>{}(a.delayed.get());
+    for (const std::int32_t id : a.argument) key = 31 * key + static_cast<std::size_t>(id);
+    return key;
+  };
+  std::vector<Atom>& atoms = program_.atoms;
+  const auto number = [&](auto iterator) { return static_cast<std::int32_t>(iterator - atoms.begin()); };
   // Sums over all parts of a model have as many atoms.
-  std::size_t key = std::hash<const void*>{}(atom.function) ^ std::hash<const void*>{}(atom.delayed.get());
-  for (const std::int32_t id : atom.argument) key = 31 * key + static_cast<std::size_t>(id);
-  const auto [first, last] = atom_index_.equal_range(key);
-  const auto found = std::find_if(
-      first, last, [&](const auto& entry) { return same(program_.atoms[static_cast<std::size_t>(entry.second)]); });
-  const auto index = found != last ? found->second : static_cast<std::int32_t>(program_.atoms.size());
-  if (found == last) {
-    atom_index_.emplace(key, index);
-    program_.atoms.push_back(atom);
+  constexpr std::size_t few = 16;
+  if (atoms.size() <= few) {
+    const auto found = std::ranges::find_if(atoms, is_same);
+    if (found != atoms.end()) return number(found);
+  } else {
+    const auto [first, last] = atom_index_.equal_range(hash(atom));
+    const auto found = std::find_if(
+        first, last, [&](const auto& entry) { return is_same(atoms[static_cast<std::size_t>(entry.second)]); });
+    if (found != last) return found->second;
   }
-  return {push({.kind = Kind::atom, .a = index}, atom.at), atom.at};
+  atoms.push_back(atom);
+  if (atoms.size() == few + 1) {
+    for (auto a = atoms.begin(); a != atoms.end(); ++a) atom_index_.emplace(hash(*a), number(a));
+  } else if (atoms.size() > few) {
+    atom_index_.emplace(hash(atom), number(atoms.end() - 1));
+  }
+  return number(atoms.end() - 1);
+}
+
+Operand ProgramBuilder::atom(const Atom& atom) {
+  return {push({.kind = Kind::atom, .a = index_of(atom)}, atom.at), atom.at};
 }
 
 // Inside of an IF a constant without finite value is left for the run, which may never select its
 // branch.
 Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at) {
   std::vector<double> values;
+  values.reserve(operands.size());
   for (const Operand& operand : operands) values.push_back(*constant_value(operand));
   const double value = value_of_constants(node, values);
   // Operands that stand last are used by nobody else; components of a vector may be.
@@ -156,6 +180,8 @@ Operand ProgramBuilder::power(const Operand& base, const Operand& exponent) {
 Operand ProgramBuilder::call(const Function& function, std::span<const Operand> arguments, const Span& at) {
   std::vector<std::int32_t> list;
   std::vector<double> known;
+  list.reserve(arguments.size());
+  known.reserve(arguments.size());
   bool all_constant = true;
   for (const Operand& argument : arguments) {
     const auto value = constant_value(argument);
@@ -233,12 +259,13 @@ std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) 
   constexpr std::int32_t unused = -1;
   std::vector<std::int32_t> new_index(program_.atoms.size(), unused);
   std::vector<Atom> kept;
+  kept.reserve(program_.atoms.size());
   for (ExpressionNode& node : program_.nodes) {
     if (node.kind != Kind::atom) continue;
     std::int32_t& index = new_index[static_cast<std::size_t>(node.a)];
     if (index == unused) {
       index = static_cast<std::int32_t>(kept.size());
-      kept.push_back(program_.atoms[static_cast<std::size_t>(node.a)]);
+      kept.push_back(std::move(program_.atoms[static_cast<std::size_t>(node.a)]));
     }
     node.a = index;
   }

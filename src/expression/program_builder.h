@@ -39,7 +39,8 @@ struct OpenIf {
 
 class ProgramBuilder {
  public:
-  explicit ProgramBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  // Of so many words, numbers and signs, each of which makes one node at the most where nothing is a vector.
+  ProgramBuilder(Diagnostics& diagnostics, std::size_t words);
 
   Operand constant(double value, const Span& at);
   // Stands for what could not be understood: NaN, which silences the checks of whatever uses it.
@@ -82,6 +83,7 @@ class ProgramBuilder {
   using Kind = ExpressionNode::Kind;
   std::int32_t push(const ExpressionNode& node, const Span& at);
   void pop(std::size_t count);
+  std::int32_t index_of(const Atom& atom);
   std::int32_t push_operands(std::span<const std::int32_t> nodes);
   std::int32_t next() const { return static_cast<std::int32_t>(program_.nodes.size()); }
   // Replaces a node whose operands are all constant by its value.
@@ -90,7 +92,8 @@ class ProgramBuilder {
 
   Diagnostics& diagnostics_;
   ExpressionProgram program_;
-  std::unordered_multimap<std::size_t, std::int32_t> atom_index_;  // by hash, of which distinct atoms may share one
+  // By hash, of which distinct atoms may share one; empty as long as there are few.
+  std::unordered_multimap<std::size_t, std::int32_t> atom_index_;
   std::size_t branch_depth_ = 0;
 };
 

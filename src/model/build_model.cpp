@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "model/kind_finder.h"
@@ -21,6 +23,8 @@ bool is_ground(const Kind& kind, const Statement& s) {
     return !w.has_value && find_keyword(w.name.text(), std::span(&kind.ground_word, 1)).has_value();
   });
 }
+
+bool is_passed_over(const Statement& s) { return s.name.empty() || s.name == "END"; }
 
 class Builder {
  public:
@@ -59,33 +63,65 @@ class Builder {
   }
 
  private:
+  // Where elements of a kind are in the model.
+  struct PlacesOfKind {
+    std::optional<std::int32_t> active{}, inactive{};  // their set
+    IdTable<ElementHandle>* ids = nullptr;             // of its class of statements, but for bodies
+    IdTable<BodyId>* body_ids = nullptr;
+  };
+
   std::int32_t set_index(const Kind& kind, bool active) {
-    const auto [found, fresh] =
-        set_of_kind_.emplace(std::pair(&kind, active), static_cast<std::int32_t>(model_->sets.size()));
-    if (fresh) {
+    PlacesOfKind& places = places_of_kind_[&kind];
+    std::optional<std::int32_t>& index = active ? places.active : places.inactive;
+    if (!index) {
+      index = static_cast<std::int32_t>(model_->sets.size());
       model_->sets.push_back(kind.make_set(kind));
       model_->sets.back()->active = active;
     }
-    return found->second;
+    return *index;
+  }
+  IdTable<ElementHandle>& ids_of(const Kind& kind) {
+    IdTable<ElementHandle>*& ids = places_of_kind_[&kind].ids;
+    if (!ids) ids = &model_->ids[std::string(kind.statement)];
+    return *ids;
+  }
+  IdTable<BodyId>& body_ids_of(const Kind& kind) {
+    IdTable<BodyId>*& ids = places_of_kind_[&kind].body_ids;
+    if (!ids) ids = &model_->body_ids[std::string(kind.statement)];
+    return *ids;
   }
   ElementSet& set_of(const Kind& kind, bool active) {
     return *model_->sets[static_cast<std::size_t>(set_index(kind, active))];
   }
 
+  // What is known of a statement until it is read: 16 bytes, since there are as many as statements.
+  struct Known {
+    std::int32_t set = no_set;
+    std::int32_t index = 0;  // in it
+    std::int32_t variant_argument = Placement::no_variant;
+    BodyId preceding_body{};
+
+    static constexpr std::int32_t no_set = -1;  // it makes no element, which is reported
+  };
+  ElementSet* set_of(const Known& known) const {
+    return known.set == Known::no_set ? nullptr : model_->sets[static_cast<std::size_t>(known.set)].get();
+  }
+
   // What kind each statement is of, and room for all of them.
   void find_kinds() {
     const auto& statements = model_->dataset->statements;
-    placements_.reserve(statements.size());
-    std::map<ElementSet*, std::size_t> count;
+    known_.resize(statements.size());
+    std::unordered_map<ElementSet*, std::size_t> count;
+    auto known = known_.begin();
     for (const Statement& s : statements) {
-      if (s.name.empty() || s.name == "END") continue;
+      Known& k = *known++;
+      if (is_passed_over(s)) continue;
       std::size_t variant_argument = no_argument;
       const Kind* kind = finder_.find(s, variant_argument, diagnostics_);
-      ElementSet* set = kind ? &set_of(*kind, !s.inactive) : nullptr;
-      const bool chosen = variant_argument != no_argument;
-      placements_.push_back(
-          {&s, set, 0, chosen ? static_cast<std::int32_t>(variant_argument) : Placement::no_variant, {}});
-      if (set) ++count[set];
+      if (!kind) continue;
+      k.set = set_index(*kind, !s.inactive);
+      if (variant_argument != no_argument) k.variant_argument = static_cast<std::int32_t>(variant_argument);
+      ++count[set_of(k)];
     }
     std::map<std::string_view, std::size_t> of_statement;
     for (const auto& [set, elements] : count) {
@@ -106,23 +142,17 @@ class Builder {
   // First pass: every id becomes known, so statements may refer to later ones.
   void register_statements() {
     const auto& statements = model_->dataset->statements;
-    std::size_t markers = 0, bodies = 0;
-    for (const Statement& s : statements) {
-      const auto& kinds = finder_.kinds_of(s.name);
-      if (kinds.empty()) continue;
-      markers += kinds.front()->role == Kind::Role::marker ? 1 : 0;
-      bodies += kinds.front()->role == Kind::Role::body ? 1 : 0;
-    }
-    model_->markers.reserve(1 + markers);
-    model_->bodies.reserve(1 + bodies);
     // Sets in the order of the catalogue, whatever the order of the dataset, so that finishing works.
     for (const Kind* kind : catalogue_) set_of(*kind, true);
     find_kinds();
     BodyId preceding;
     const Statement* ground = nullptr;
-    for (Placement& p : placements_) {
-      const Statement& s = *p.statement;
-      ElementSet* set = std::exchange(p.set, nullptr);
+    auto known = known_.begin();
+    for (const Statement& s : statements) {
+      Known& k = *known++;
+      if (is_passed_over(s)) continue;
+      const std::int32_t its_set = std::exchange(k.set, Known::no_set);
+      ElementSet* set = set_of(Known{its_set});
       if (!set) {
         // The id exists all the same: what refers to it must not complain as well.
         if (s.id) model_->ids[std::string(s.name)].emplace(*s.id, ElementHandle{});
@@ -149,12 +179,13 @@ class Builder {
       if (has_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
       if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
         examined_.emplace(std::pair(s.name, *s.id), &s);
-      p.set = set;
-      p.index = static_cast<std::int32_t>(set->size());
-      p.preceding_body = preceding;
+      k.set = its_set;
+      k.index = static_cast<std::int32_t>(set->size());
+      k.preceding_body = preceding;
       set->append(label);
-      if (kind->role == Kind::Role::marker) model_->markers.back().label = &set->labels.back();
     }
+    model_->markers.reserve(marker_count_);
+    model_->bodies.reserve(bodies_at_.size());
     // Of a file without any text it has been said already.
     const bool empty = model_->dataset->source->text().find_first_not_of(" \t\f\v\r\n") == std::string_view::npos;
     if (ground || empty) return;
@@ -172,18 +203,18 @@ class Builder {
       return false;
     };
     if (kind.role == Kind::Role::marker) {
-      const MarkerId m{static_cast<std::int32_t>(model_->markers.size())};
+      const MarkerId m{static_cast<std::int32_t>(marker_count_)};
       const auto [known, fresh] = model_->marker_ids.emplace(*s.id, m);
-      if (!fresh) return duplicate(model_->marker(*known).label->at);
-      model_->markers.emplace_back();
+      // Marker k of its set is marker k + 1 of the model.
+      if (!fresh) return duplicate(set.labels[static_cast<std::size_t>(known->index) - 1].at);
+      ++marker_count_;
       return true;
     }
     if (kind.role == Kind::Role::body) {
       const bool is_ground_part = is_ground(kind, s);
-      const BodyId b = is_ground_part ? ground_body : BodyId{static_cast<std::int32_t>(model_->bodies.size())};
-      auto& table = model_->body_ids[std::string(kind.statement)];
-      const auto [known, fresh] = table.emplace(*s.id, b);
-      if (!fresh) return duplicate(model_->body(*known).label.at);
+      const BodyId b = is_ground_part ? ground_body : BodyId{static_cast<std::int32_t>(bodies_at_.size())};
+      const auto [known, fresh] = body_ids_of(kind).emplace(*s.id, b);
+      if (!fresh) return duplicate(bodies_at_[static_cast<std::size_t>(known->index)]);
       if (is_ground_part) {
         if (ground) {
           diagnostics_.error("duplicate-ground", s.at, fmt::format("{} is a second ground", label.text()))
@@ -191,32 +222,46 @@ class Builder {
         }
         ground = &s;
         model_->bodies[0].label = label;
+        bodies_at_[0] = label.at;
       } else {
-        Body body;
-        body.label = label;
-        body.kind = kind.is_point ? BodyKind::point_mass : BodyKind::part;
-        model_->bodies.push_back(std::move(body));
+        bodies_at_.push_back(label.at);
       }
       preceding = b;
       return true;
     }
     const std::int32_t index = set_index(kind, set.active);
-    auto& table = model_->ids[std::string(kind.statement)];
-    const auto [known, fresh] = table.emplace(*s.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
+    const auto [known, fresh] =
+        ids_of(kind).emplace(*s.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
     if (!fresh) return duplicate(known->valid() ? model_->label(*known).at : Span{});
     return true;
+  }
+
+  // A body or marker of the model is made when its statement is read and not earlier, as elements are
+  // (ElementSet::make).
+  void make_in_model(const Placement& p) {
+    const Kind& kind = p.set->kind();
+    const ElementLabel& label = p.set->labels[p.at()];
+    if (kind.role == Kind::Role::marker) model_->markers.emplace_back().label = &label;
+    if (kind.role != Kind::Role::body || p.preceding_body == ground_body) return;
+    Body& body = model_->bodies.emplace_back();
+    body.label = label;
+    body.kind = kind.is_point ? BodyKind::point_mass : BodyKind::part;
   }
 
   // Second pass: arguments, with all references resolved.
   void read_statements() {
     auto read = read_once_ ? read_once_->statements.begin() : std::deque<Statement>::iterator{};
     bool label_is_known = false;
-    for (const Placement& p : placements_) {
+    auto known = known_.begin();
+    for (const Statement& s : model_->dataset->statements) {
+      const Known& k = *known++;
       // SENVAL asks for arguments of others, by their names alone.
-      for (; read_once_ && &*read != p.statement; ++read) {
+      for (; read_once_ && &*read != &s; ++read) {
         if (!is_examined(read->name)) read_once_->release_arguments(*read);
       }
-      if (!p.set) continue;
+      if (k.set == Known::no_set) continue;
+      const Placement p{&s, set_of(k), k.index, k.variant_argument, k.preceding_body};
+      make_in_model(p);
       Diagnostics own;
       ModelReader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
       reader.label_is_known = label_is_known;
@@ -232,9 +277,11 @@ class Builder {
   KindFinder finder_;
   Dataset* read_once_ = nullptr;
   std::unique_ptr<Model> model_;
-  std::map<std::pair<const Kind*, bool>, std::int32_t> set_of_kind_;  // and whether its elements are active
+  std::unordered_map<const Kind*, PlacesOfKind> places_of_kind_;
   Diagnostics diagnostics_;
-  std::vector<Placement> placements_;
+  std::vector<Known> known_;                            // of each statement
+  std::size_t marker_count_ = 1;                        // the global frame among them
+  std::vector<Span> bodies_at_ = std::vector<Span>(1);  // of each body where it is defined, the ground first
   DatasetWithRoutines routines_;
   ExaminedStatements examined_;
 };

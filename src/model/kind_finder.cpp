@@ -25,7 +25,7 @@ bool is_argument(const Kind& kind, std::string_view word) {
 
 KindFinder::KindFinder(Catalogue catalogue) {
   for (const Kind* kind : catalogue) {
-    Variants& of_statement = kinds_[std::string(kind->statement)];
+    Variants& of_statement = kinds_[kind->statement];
     of_statement.kinds.push_back(kind);
     of_statement.names.push_back(kind->variant);
   }

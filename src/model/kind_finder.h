@@ -1,8 +1,8 @@
 // Finds which kind of a statement is meant; the variants of a statement are told by a bare word.
 #pragma once
 
-#include <map>
-#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "model/kind.h"
@@ -28,7 +28,7 @@ class KindFinder {
     std::vector<const Kind*> kinds;
     std::vector<std::string_view> names;
   };
-  std::map<std::string, Variants, std::less<>> kinds_;
+  std::unordered_map<std::string_view, Variants> kinds_;  // by the keyword out of the catalogue
 };
 
 }  // namespace dynalin

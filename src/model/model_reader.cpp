@@ -28,6 +28,7 @@ ModelReader::ModelReader(Model& model, const Placement& placement, const Examine
       placement_(placement),
       examined_(examined),
       routines_(routines) {
+  assignments.reserve(placement.statement->arguments.size());
   if (placement.variant_argument != Placement::no_variant) {
     const auto& w = placement.statement->arguments[static_cast<std::size_t>(placement.variant_argument)];
     assignments.push_back({placement.set->kind().variant, w.name});

@@ -95,9 +95,8 @@ constexpr std::array<std::string_view, 3> not_built = {"CURVE", "SURFACE", "VELO
 bool names_what_is_not_built(ElementReader& reader) {
   bool found = false;
   for (const WrittenArgument& w : reader.statement().arguments) {
-    if (find_keyword(w.name.text(), detail::argument_names<MarkerStatement>)) continue;
     const auto k = find_keyword(w.name.text(), not_built);
-    if (!k) continue;
+    if (!k || find_keyword(w.name.text(), detail::argument_names<MarkerStatement>)) continue;
     // The rest of the statement follows from the first.
     if (!found) {
       reader.error("argument-not-built", w.name,

@@ -11,7 +11,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
+#include <unordered_map>
 
 #include "elements/families/inertia.h"
 #include "elements/families/markers.h"
@@ -22,7 +25,7 @@ namespace dynalin {
 
 namespace {
 
-struct Part {
+struct PartStatement {
   bool ground = false;
   double mass = 0;
   MarkerId cm, im, vm, wm;
@@ -32,78 +35,91 @@ struct Part {
   std::optional<double> vx, vy, vz, wx, wy, wz;
   std::vector<std::string> exact;
   std::string material;
-  Matrix3 axes = Matrix3::identity();
 
-  static constexpr std::array<Argument<Part>, 19> arguments = {{
-      {.name = "GROUND", .slot = &Part::ground, .help = "this is the inertial body"},
-      {.name = "MASS", .slot = &Part::mass, .unit = unit::mass, .minimum = 0, .help = "0 unless stated"},
-      {.name = "CM", .slot = &Part::cm, .help = "marker at the centre of mass"},
-      {.name = "IM", .slot = &Part::im, .help = "marker that IP refers to, CM by default"},
-      {.name = "IP", .slot = &Part::ip, .unit = unit::inertia, .help = "Ixx, Iyy, Izz [, Ixy, Ixz, Iyz]"},
+  static constexpr std::array<Argument<PartStatement>, 19> arguments = {{
+      {.name = "GROUND", .slot = &PartStatement::ground, .help = "this is the inertial body"},
+      {.name = "MASS", .slot = &PartStatement::mass, .unit = unit::mass, .minimum = 0, .help = "0 unless stated"},
+      {.name = "CM", .slot = &PartStatement::cm, .help = "marker at the centre of mass"},
+      {.name = "IM", .slot = &PartStatement::im, .help = "marker that IP refers to, CM by default"},
+      {.name = "IP", .slot = &PartStatement::ip, .unit = unit::inertia, .help = "Ixx, Iyy, Izz [, Ixy, Ixz, Iyz]"},
       {.name = "QG",
-       .slot = &Part::origin,
+       .slot = &PartStatement::origin,
        .unit = unit::length,
        .help = "origin of the BCS",
        .start = StatedStart::place},
       {.name = "REULER",
-       .slot = &Part::angles,
+       .slot = &PartStatement::angles,
        .unit = unit::angle,
        .help = "3-1-3 angles of the BCS",
        .ends = "ZG XG",
        .start = StatedStart::place},
       {.name = "ZG",
-       .slot = &Part::z_point,
+       .slot = &PartStatement::z_point,
        .unit = unit::length,
        .help = "global point on +z of the BCS",
        .ends = "REULER",
        .start = StatedStart::place},
       {.name = "XG",
-       .slot = &Part::x_point,
+       .slot = &PartStatement::x_point,
        .unit = unit::length,
        .help = "global point in the x-z plane",
        .ends = "REULER",
        .start = StatedStart::place},
       {.name = "VX",
-       .slot = &Part::vx,
+       .slot = &PartStatement::vx,
        .unit = unit::velocity,
        .help = "initial velocity of the CM",
        .start = StatedStart::velocity},
       {.name = "VY",
-       .slot = &Part::vy,
+       .slot = &PartStatement::vy,
        .unit = unit::velocity,
        .help = "the same along y",
        .start = StatedStart::velocity},
       {.name = "VZ",
-       .slot = &Part::vz,
+       .slot = &PartStatement::vz,
        .unit = unit::velocity,
        .help = "the same along z",
        .start = StatedStart::velocity},
       {.name = "WX",
-       .slot = &Part::wx,
+       .slot = &PartStatement::wx,
        .unit = unit::angular_velocity,
        .help = "initial angular velocity",
        .start = StatedStart::velocity},
       {.name = "WY",
-       .slot = &Part::wy,
+       .slot = &PartStatement::wy,
        .unit = unit::angular_velocity,
        .help = "the same about y",
        .start = StatedStart::velocity},
       {.name = "WZ",
-       .slot = &Part::wz,
+       .slot = &PartStatement::wz,
        .unit = unit::angular_velocity,
        .help = "the same about z",
        .start = StatedStart::velocity},
       {.name = "VM",
-       .slot = &Part::vm,
+       .slot = &PartStatement::vm,
        .help = "axes of VX, VY, VZ; global by default",
        .start = StatedStart::velocity_axes},
       {.name = "WM",
-       .slot = &Part::wm,
+       .slot = &PartStatement::wm,
        .help = "axes of WX, WY, WZ; those of CM by default",
        .start = StatedStart::angular_axes},
-      {.name = "EXACT", .slot = &Part::exact, .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
-      {.name = "MATERIAL", .slot = &Part::material, .help = "name of a MATERIAL; has no effect on a rigid part"},
+      {.name = "EXACT",
+       .slot = &PartStatement::exact,
+       .help = "coordinates the assembly should keep: X:Y:Z:PSI:THETA:PHI"},
+      {.name = "MATERIAL",
+       .slot = &PartStatement::material,
+       .help = "name of a MATERIAL; has no effect on a rigid part"},
   }};
+};
+
+// What stays of it until all markers are known, in little memory beside the body of the model.
+struct ReadPart {
+  bool ground = false;
+  std::array<bool, 6> exact{};
+  double mass = 0;
+  MarkerId cm, im, vm, wm;
+  std::optional<std::array<double, 6>> inertia{};
+  Pose pose{};
 };
 
 std::optional<std::size_t> exact_coordinate(const std::string& word) {
@@ -120,12 +136,12 @@ void check_exact(const std::vector<std::string>& words, ElementReader& reader) {
   }
 }
 
-class PartSet final : public TypedSet<Part> {
+class PartSet final : public TypedSet<ReadPart> {
  public:
   using TypedSet::TypedSet;
 
   void read(std::size_t k, ElementReader& reader) override {
-    Part& p = elements[k];
+    PartStatement p;
     if (!read_arguments(p, reader)) return;
     if (p.ground && reader.statement().arguments.size() > (reader.given("MATERIAL") ? 2u : 1u)) {
       reader.error("argument-of-ground", reader.at("GROUND"),
@@ -146,42 +162,49 @@ class PartSet final : public TypedSet<Part> {
     }
     check_exact(p.exact, reader);
     const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
-    if (axes) p.axes = *axes;
+    elements[k] = {p.ground, {}, p.mass, p.cm, p.im, p.vm, p.wm};
+    if (axes) elements[k].pose = {p.origin, *axes};
+    if (!p.ip.empty()) {
+      auto& inertia = elements[k].inertia.emplace();
+      std::copy_n(p.ip.begin(), std::min(p.ip.size(), inertia.size()), inertia.begin());
+    }
+    for (const std::string& word : p.exact) {
+      if (const auto coordinate = exact_coordinate(word)) elements[k].exact[*coordinate] = true;
+    }
+    if (p.vx || p.vy || p.vz || p.wx || p.wy || p.wz)
+      velocities_.emplace(k, StatedVelocity{{p.vx, p.vy, p.vz}, {p.wx, p.wy, p.wz}});
   }
 
   std::vector<MarkerId> centres;  // CM of each
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      if (!elements[k].ground) body_of(model, k).pose = {elements[k].origin, elements[k].axes};
+      if (!elements[k].ground) body_of(model, k).pose = elements[k].pose;
     }
     bring_origins_near(model);
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Part& p = elements[k];
+      const ReadPart& p = elements[k];
       if (p.ground) continue;
       const BodyId id = *model.find_body("PART", labels[k].id);
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
-      for (const std::string& word : p.exact) {
-        if (const auto coordinate = exact_coordinate(word)) body.exact[*coordinate] = true;
-      }
+      body.exact = p.exact;
       place_mass(p, labels[k], id, model, body, diagnostics);
       check_velocity_axes(model, labels[k], p.vm, p.wm, diagnostics);
-      body.velocity = {{p.vx, p.vy, p.vz},
-                       {p.wx, p.wy, p.wz},
-                       p.vm.valid() ? p.vm : global_frame,
-                       p.wm.valid()   ? p.wm
-                       : p.cm.valid() ? p.cm
-                                      : global_frame};
-      if (!p.wm.valid() && !p.cm.valid() && (p.wx || p.wy || p.wz)) {
+      if (const auto stated = velocities_.find(k); stated != velocities_.end()) body.velocity = stated->second;
+      body.velocity.cm_axes = p.vm.valid() ? p.vm : global_frame;
+      body.velocity.angular_axes = p.wm.valid() ? p.wm : p.cm.valid() ? p.cm : global_frame;
+      const bool turns = std::ranges::any_of(body.velocity.angular, [](const auto& w) { return w.has_value(); });
+      if (!p.wm.valid() && !p.cm.valid() && turns) {
         diagnostics.error("missing-cm", labels[k].at,
                           fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
       }
     }
     centres.clear();
-    for (const Part& p : elements) centres.push_back(p.cm);
-    std::vector<Part>().swap(elements);  // all that counts is in the model now
+    for (const ReadPart& p : elements) centres.push_back(p.cm);
+    std::vector<ReadPart>().swap(elements);  // all that counts is in the model now
+    velocities_.clear();
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
@@ -211,8 +234,8 @@ class PartSet final : public TypedSet<Part> {
       if (!first[b].valid()) first[b] = MarkerId{static_cast<std::int32_t>(m)};
     }
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Part& p = elements[k];
-      if (p.ground || !p.exact.empty()) continue;
+      const ReadPart& p = elements[k];
+      if (p.ground || p.exact != std::array<bool, 6>{}) continue;
       const auto b = static_cast<std::size_t>(model.find_body("PART", labels[k].id)->index);
       if (!first[b].valid() || nearest[b] <= limit) continue;
       Body& body = model.bodies[b];
@@ -227,11 +250,11 @@ class PartSet final : public TypedSet<Part> {
     }
   }
 
-  static bool has_inertia(const Part& p) {
+  static bool has_inertia(const PartStatement& p) {
     return std::any_of(p.ip.begin(), p.ip.end(), [](double x) { return x != 0.0; });
   }
 
-  static void place_mass(const Part& p, const ElementLabel& label, BodyId id, const Model& model, Body& body,
+  static void place_mass(const ReadPart& p, const ElementLabel& label, BodyId id, const Model& model, Body& body,
                          Diagnostics& diagnostics) {
     if (!p.cm.valid()) return;
     const auto owned = [&](MarkerId m, std::string_view argument) {
@@ -246,10 +269,9 @@ class PartSet final : public TypedSet<Part> {
     const MarkerPlace& im = model.marker(p.im.valid() ? p.im : p.cm).place;
     body.p_BC = cm.p_BM;
     body.R_BI = im.R_BM;
-    if (p.ip.empty()) return;
-    const double xy = p.ip.size() == 6 ? p.ip[3] : 0, xz = p.ip.size() == 6 ? p.ip[4] : 0,
-                 yz = p.ip.size() == 6 ? p.ip[5] : 0;
-    const Matrix3 J_IM{{p.ip[0], -xy, -xz}, {-xy, p.ip[1], -yz}, {-xz, -yz, p.ip[2]}};
+    if (!p.inertia) return;
+    const auto& [xx, yy, zz, xy, xz, yz] = *p.inertia;
+    const Matrix3 J_IM{{xx, -xy, -xz}, {-xy, yy, -yz}, {-xz, -yz, zz}};
     // From the origin of IM to the centre of mass, then from model units to dynamical ones.
     const Vector s = cm.p_BM - im.p_BM;
     const Matrix3 about_im = im.R_BM * J_IM * transpose(im.R_BM);
@@ -289,6 +311,8 @@ class PartSet final : public TypedSet<Part> {
                           "the largest is more than the sum of the others");
     }
   }
+
+  std::unordered_map<std::size_t, StatedVelocity> velocities_;  // of the few that state any
 };
 
 }  // namespace
@@ -308,7 +332,7 @@ extern constinit const Kind part =
          "",
          "A rigid body, or the ground.",
          Kind::Role::body,
-         detail::argument_infos<Part>,
+         detail::argument_infos<PartStatement>,
          [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<PartSet>(kind); }}
         .grounded_by("GROUND")
         .with_example("PART/2, MASS=3.5");
