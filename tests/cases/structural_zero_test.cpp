@@ -189,6 +189,27 @@ TEST_F(StructuralZeros, a_part_that_is_pulled_at_its_mass_centre_turns_freely) {
 
 // An integrator that nothing follows takes away none of the motions of what floats: two bodies on a bushing have
 // twelve zeros and a clock one more.
+// What a spin makes of the inertia cancels along an axis of it, and is nothing but rounding where the axis is inclined.
+TEST_F(StructuralZeros, of_a_rotor_that_spins_on_an_inclined_hinge_are_two) {
+  const auto rotor = [](const Vector& angles, const std::string& more) {
+    return fmt::format(
+        "Rotor\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER={0}\n"
+        "PART/2, MASS=1, CM=2, IP=1,1,0.1, REULER={0}, WZ=2\nMARKER/2\nJOINT/1, REVOLUTE, I=2, J=1\n{1}END\n",
+        xyz(angles), more);
+  };
+  for (const Vector& angles : {Vector{1, 1, 1}, Vector{-2.3, 0.7, 2.9}, Vector{0.4, -1.2, 0.3}, Vector{2, 2.5, -3}}) {
+    for (const char* more : {"", "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=2\n"}) {
+      const auto modes = solve(rotor(angles, more));
+      ASSERT_EQ(modes.size(), 2u);
+      EXPECT_EQ(zeros(modes), 2u) << xyz(angles) << more;
+    }
+    // Far softer than the spin is stiff, and held all the same: ω² = KT/Izz.
+    const auto held = solve(rotor(angles, "SPRINGDAMPER/1, ROTATIONAL, I=2, J=1, KT=1E-9, CT=0, ANGLE=0\n"));
+    EXPECT_EQ(zeros(held), 0u) << xyz(angles);
+    for (const Mode& m : held) EXPECT_LE(std::abs(std::abs(m.value.imag()) - 1e-4), m.bound + 1e-12) << xyz(angles);
+  }
+}
+
 TEST_F(StructuralZeros, of_floating_bodies_stand_beside_integrators) {
   const std::string bodies =
       "Bodies\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,2,2.5\nMARKER/2, PART=2\n"
