@@ -40,10 +40,8 @@ struct ExpressionNode {
   };
   Kind kind = Kind::constant;
   std::int32_t a = 0, b = 0;
-  union {
-    double constant = 0;       // of a constant or a power
-    const Function* function;  // of a call
-  };
+  const Function* function = nullptr;
+  double constant = 0;
 };
 
 // Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.
