@@ -36,8 +36,7 @@ bool is_operator(std::string_view symbol) {
 }  // namespace
 
 ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics)
-    : tokens_(tokens.first(
-          static_cast<std::size_t>(std::ranges::find(tokens, TokenKind::end, &Token::kind) - tokens.begin()))),
+    : tokens_(tokens.begin(), std::ranges::find_if(tokens, [](const Token& t) { return t.kind == TokenKind::end; })),
       source_(source),
       diagnostics_(diagnostics),
       errors_before_(diagnostics.error_count()),
