@@ -129,8 +129,8 @@ class Replay {
 
   static void add_modes(const std::string& text, const LinearCommand& c, library::Record& record,
                         const library::LinearModel& linear) {
-    const library::Modes modes =
-        c.selection ? linear.modes(*c.selection, !c.without_vectors) : linear.modes(!c.without_vectors);
+    const auto shapes = c.without_vectors ? library::ModeShapes::left_out : library::ModeShapes::wanted;
+    const library::Modes modes = c.selection ? linear.modes(*c.selection, shapes) : linear.modes(shapes);
     record.add(text, linear, modes, c.tables.any() ? linear.tables(modes, c.tables) : ModalTables{});
   }
 
