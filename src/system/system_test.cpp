@@ -70,7 +70,7 @@ TEST(System, a_few_markers_far_out_are_no_length_of_the_model) {
 
 TEST(System, a_curve_says_how_long_a_model_is_whose_markers_stand_at_one_place_of_it) {
   const auto length = [](const char* off) {
-    return system_of(std::string("MARKER/1\nMARKER/9, FLOATING\nMATRIX/1, FULL=RORDER, ROWS=4, COLUMNS=3\n"
+    return system_of(std::string("MARKER/9, FLOATING\nMATRIX/1, FULL=RORDER, ROWS=4, COLUMNS=3\n"
                                  ", VALUES=0,0,0, 10,0,0, 20,0,0, 30,0,0\nCURVE/1, OPEN, MATRIX=1, CURVE_POINTS\n"
                                  "POINT_MASS/2, MASS=3, CM=2, QG=") +
                      off + ",0,0\nMARKER/2\nPTCV/1, I=2, JFLOAT=9, CURVE=1, RM=1\n")
