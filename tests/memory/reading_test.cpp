@@ -116,9 +116,9 @@ TEST_P(Reading, allocates_no_more_often_than_so_for_a_statement) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LargeDatasets, Reading,
-                         ::testing::Values(Limits{Kind::exported, 1, 1}, Limits{Kind::dense, 1, 1},
-                                           Limits{Kind::jointed, 1, 1}, Limits{Kind::expressions, 1, 1},
-                                           Limits{Kind::tables, 1, 1}, Limits{Kind::mixed, 1, 1}),
+                         ::testing::Values(Limits{Kind::exported, 4.6, 7.4}, Limits{Kind::dense, 7.0, 7.3},
+                                           Limits{Kind::jointed, 6.4, 2.9}, Limits{Kind::expressions, 16.5, 14.1},
+                                           Limits{Kind::tables, 3.1, 9.4}, Limits{Kind::mixed, 7.5, 9.1}),
                          ::testing::PrintToStringParamName());
 
 }  // namespace
