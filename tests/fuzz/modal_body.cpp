@@ -1,4 +1,5 @@
 // Any bytes as the file of a flexible body: a body that can be simulated, or an error at its line.
+#include "flexible/body_file_type.h"
 #include "flexible/modal_body.h"
 
 #include "target.h"
