@@ -1,7 +1,7 @@
 // Any bytes as the file of a flexible body: a body that can be simulated, or an error at its line.
-#include "flexible/body_file_type.h"
 #include "flexible/modal_body.h"
 
+#include "flexible/body_file_type.h"
 #include "target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
