@@ -114,7 +114,7 @@ TEST_F(ContactRoutines, lead_to_the_same_motion_and_equilibrium) {
 #endif
   for (const RunResult& r : called) {
     ASSERT_EQ(r.status, 0) << r.err;
-    for (const std::size_t at : {1, 2}) {
+    for (const std::size_t at : {1u, 2u}) {
       const auto a = requested(r, at), b = requested(law, at);
       ASSERT_EQ(a.size(), b.size());
       for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-4 * (1 + std::abs(b[k]))) << at << " " << k;
