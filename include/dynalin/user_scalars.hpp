@@ -4,6 +4,7 @@
 
 #include <array>
 #include <concepts>
+#include <cstddef>
 
 namespace dynalin::user {
 
@@ -18,12 +19,12 @@ struct Partials {
   Partials(double number) : x(number) {}  // NOLINT
   friend Partials operator+(Partials a, const Partials& b) {
     a.x += b.x;
-    for (int k = 0; k < pass; ++k) a.d[k] += b.d[k];
+    for (std::size_t k = 0; k < pass; ++k) a.d[k] += b.d[k];
     return a;
   }
   friend Partials operator*(const Partials& a, const Partials& b) {
     Partials out(a.x * b.x);
-    for (int k = 0; k < pass; ++k) out.d[k] = a.d[k] * b.x + a.x * b.d[k];
+    for (std::size_t k = 0; k < pass; ++k) out.d[k] = a.d[k] * b.x + a.x * b.d[k];
     return out;
   }
   friend double value_of(const Partials& a) { return a.x; }
@@ -48,7 +49,7 @@ template <class Function>
 Partials apply(const Partials& a, const Function& function) {
   const std::array<double, 3> f = function.of(a.x);
   Partials out(f[0]);
-  for (int k = 0; k < pass; ++k) out.d[k] = a.d[k] == 0.0 ? 0.0 : f[1] * a.d[k];
+  for (std::size_t k = 0; k < pass; ++k) out.d[k] = a.d[k] == 0.0 ? 0.0 : f[1] * a.d[k];
   return out;
 }
 template <class Function>
