@@ -66,7 +66,7 @@ class KinematicRun {
 
   Result<AdvancedPoint> run() {
     if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
-    bool goes_on = look_at_accepted(at_, true);
+    bool goes_on = look_at_accepted(at_, Instant::output);
     double h = std::min(times_.step(), largest_step_);
     std::int64_t k = 1;  // the next output
     while (k <= times_.count() && goes_on) {
@@ -87,7 +87,7 @@ class KinematicRun {
         if (leaps && (k > times_.count() || !goes_on)) break;
         const bool output = at_.time == target;
         if (output) ++k;
-        goes_on = look_at_accepted(at_, output);
+        goes_on = look_at_accepted(at_, instant_of(output));
         continue;
       }
       if (choose_other_rows()) continue;
@@ -254,16 +254,16 @@ class KinematicRun {
   }
 
   // The one place where every accepted point is looked at.
-  bool look_at_accepted(const OperatingPoint& point, bool output) {
+  bool look_at_accepted(const OperatingPoint& point, Instant instant) {
     if (!watch_) return true;
-    return watch_(SimulationStep{system_, point, output, statistics_}) == GoOn::yes;
+    return watch_(SimulationStep{system_, point, instant == Instant::output, statistics_}) == GoOn::yes;
   }
 
   // Outputs on a leap lie between its ends; the run may end with one of them.
   bool look_at_leapt(OperatingPoint& next, std::int64_t& k) {
     for (; k <= times_.count() && times_.at(k) <= next.time; ++k) {
       OperatingPoint output = interpolated(system_, at_, next, times_.at(k));
-      const bool goes_on = look_at_accepted(output, true), last = k == times_.count();
+      const bool goes_on = look_at_accepted(output, Instant::output), last = k == times_.count();
       if (goes_on && !last) continue;
       next = std::move(output);
       ++k;

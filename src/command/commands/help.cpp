@@ -51,7 +51,7 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
 }
 
 constexpr std::array<ArgumentInfo, 1> help_arguments = {
-    {{"name", false, true, ValueKind::none, {}, "a statement, command or function; without one the list of all"}}};
+    {{.name = "name", .is_flag = true, .help = "a statement, command or function; without one the list of all"}}};
 
 constexpr std::array kinds = {
     CommandKind{.name = "HELP",

@@ -145,7 +145,7 @@ class PartSet final : public TypedSet<Part> {
                      fmt::format("{} has inertia but no mass", reader.label().text()));
     }
     check_exact(p.exact, reader);
-    const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    const auto axes = orientation({p.angles, p.z_point, p.x_point, "REULER", "ZG", "XG"}, p.origin, reader);
     if (axes) p.axes = *axes;
   }
 
