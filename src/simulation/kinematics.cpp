@@ -22,7 +22,7 @@ constexpr double continuation = 0.05;  // of its way: how far a step may differ 
 constexpr double no_way = 1e-6;        // in lengths of the model and radians: no smaller differences are looked at
 constexpr double passage = 1e-4;       // in the same: on so short a way the rows may change their orientation
 constexpr double leap = 1e-3;          // half of a way on which a singular configuration is leapt over
-constexpr double singular = 1e-5;      // rows that hold so much less than elsewhere leave nothing but rounding
+constexpr double lost_hold = 1e-5;     // rows that hold so much less than elsewhere leave nothing but rounding
 constexpr double loose = 1e-3;         // the same, for what is to blame where nothing goes on
 constexpr int creeping_limit = 500;    // steps in a row that are taken for being next to nothing alone,
 constexpr double creeping = 1e-3;      // and are shorter than this part of those that are wanted
@@ -174,7 +174,7 @@ class KinematicRun {
     const bool reached = predicted(way, to) && !(missed_ = equations_.solve_position(to, limits_));
     const double hold = reached ? equations_.hold() : 0;
     const int orientation = reached ? equations_.orientation() : 0;
-    nears_singular_ = (reached && hold < singular * hold_) || missed_ == KinematicEquations::Missed::singular;
+    nears_singular_ = (reached && hold < lost_hold * hold_) || missed_ == KinematicEquations::Missed::singular;
     const bool completed = reached && !nears_singular_ && complete(to);
     statistics_.evaluations += equations_.evaluations() - evaluations;
     statistics_.jacobians += equations_.factorizations() - factorizations;
