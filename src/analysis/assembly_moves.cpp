@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/row_sizes.h"
+#include "base/degree.h"
 #include "system/operating_state.h"
 
 namespace dynalin {
@@ -92,7 +93,6 @@ std::vector<OpenConstraint> open_constraints(const System& system, const Operati
 std::vector<std::string> changed_coordinates(const System& system, const OperatingPoint& drawn,
                                              const OperatingPoint& assembled, std::size_t body) {
   static constexpr std::array<const char*, 6> names = {"X", "Y", "Z", "PSI", "THETA", "PHI"};
-  constexpr double degree = std::numbers::pi / 180;
   const std::array<bool, 6>& exact = system.model().bodies[body].exact;
   const auto &from = drawn.poses[body], &to = assembled.poses[body];
   std::vector<std::string> list;

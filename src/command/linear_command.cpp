@@ -20,7 +20,7 @@ struct Row {
 
 template <class V>
 Row table_row(std::string_view name, std::string_view help, std::size_t table, V WrittenTable::*slot) {
-  return {ArgumentInfo{name, false, false, detail::value_kind<V>(), {}, help},
+  return {ArgumentInfo{.name = name, .value = detail::value_kind<V>(), .help = help},
           [=](WrittenLinear& w, const WrittenArgument& written, ElementReader& reader) {
             constexpr double any = std::numeric_limits<double>::infinity();
             return read_value(w.tables[table].*slot, written, ValueLimits{name, -any, any}, reader);

@@ -2,13 +2,12 @@
 
 #include <numbers>
 
+#include "base/degree.h"
 #include "dataset/dataset.h"
 #include "dataset/test_reading.h"
 
 namespace dynalin::testing::values_test {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // One argument of PART/2 and what reading it reports; the value begins in column 11.
 class Written {

@@ -24,12 +24,12 @@ ComplexMatrix with_conjugates(const EigenPairs& pairs, const ComplexMatrix& vect
 
 // No y_iᴴ x_j of another beside y_iᴴ x_i. Many that are next to nothing add up in the residuals, which count them.
 bool are_dual(const ComplexMatrix& products) {
-  constexpr double enough = 0.1;
+  constexpr double next_to_own = 0.1;
   const Eigen::VectorXd own = products.diagonal().cwiseAbs();
   if (!(own.minCoeff() > 0)) return false;
   Eigen::MatrixXd others = products.cwiseAbs();
   others.diagonal().setZero();
-  return (others.rowwise().maxCoeff().array() <= enough * own.array()).all();
+  return (others.rowwise().maxCoeff().array() <= next_to_own * own.array()).all();
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double good_enough = 1e-13;  // bound against modulus
+constexpr double known_well_enough = 1e-13;  // bound against modulus
 
 // Each vector takes the first-order share of the others that do not mix with it:
 // x_i + Σ_j x_j G_ji/(λ_i − λ_j) and, dual to it, y_i − Σ_j y_j (p_ij + G_ij/(λ_j − λ_i))ᴴ.
@@ -71,7 +71,7 @@ std::vector<double> nearest(const ZeroModes& zero, const EigenPairs& pairs) {
 std::vector<Index> inexact(const EigenPairs& pairs, const std::vector<EigenTrust>& trust) {
   std::vector<Index> found;
   for (std::size_t i = 0; i < trust.size(); ++i) {
-    const double enough = good_enough * std::abs(pairs.values[i]) + 1.1 * trust[i].unknown;
+    const double enough = known_well_enough * std::abs(pairs.values[i]) + 1.1 * trust[i].unknown;
     if (!(trust[i].bound <= enough)) found.push_back(static_cast<Index>(i));
   }
   return found;

@@ -22,10 +22,11 @@ Matrix along_entries(const Matrix& U, const EigenPairs& pairs) {
 // Whether any eigenvalue would be known to fewer digits than double precision could have: a closer look costs as much
 // as a product with all unknowns.
 bool is_wide(const Matrix& along, const EigenPairs& pairs) {
-  constexpr double enough = 1e-10;
+  constexpr double uncertainty_worth_a_look = 1e-10;
   for (Index i = 0; i < along.cols(); ++i) {
     const auto unit = std::abs(pairs.left.col(i).dot(pairs.right.col(i)));
-    if (along(i, i) > enough * unit * std::abs(pairs.values[static_cast<std::size_t>(i)])) return true;
+    if (along(i, i) > uncertainty_worth_a_look * unit * std::abs(pairs.values[static_cast<std::size_t>(i)]))
+      return true;
   }
   return false;
 }

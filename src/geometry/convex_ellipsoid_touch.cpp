@@ -14,7 +14,7 @@ namespace {
 
 using Index = ConvexBody::Index;
 
-constexpr double rounding = 1e-12;  // of the size: on the border of a face it is its edge's place as well
+constexpr double width_of_border = 1e-12;  // of the size: on the border of a face it is its edge's place as well
 
 // A convex body as ellipsoid_touch.h asks for one. First the faces are counted, then the edges, then the corners.
 struct Facets {
@@ -27,7 +27,7 @@ struct Facets {
   Index corner(std::size_t which) const {
     return static_cast<Index>(which - body.faces().size() - body.edges().size());
   }
-  double tolerance() const { return rounding * body.size(); }
+  double tolerance() const { return width_of_border * body.size(); }
 };
 
 std::size_t features(const Facets& f) {

@@ -7,7 +7,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double flat = 1e-12;  // of the square of the size: what has less area has none
+constexpr double least_area = 1e-12;  // of the square of the size: what has less area has none
 
 struct Flat {
   double x = 0, y = 0;
@@ -93,7 +93,7 @@ bool add_polygon(Mesh& mesh, std::span<const Mesh::Index> corners) {
   std::vector<Vector> at;
   for (const Mesh::Index v : corners) at.push_back(mesh.vertices[v]);
   const Vector area = vector_area(at);
-  const double size = square_of_size(at), least = flat * size;
+  const double size = square_of_size(at), least = least_area * size;
   if (!(norm(area) > least) || !std::isfinite(size)) return false;
   const Vector z = normalized(area);
   if (corners.size() == 3) {

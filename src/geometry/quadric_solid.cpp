@@ -26,7 +26,7 @@ Vector QuadricSolid::farthest(const Vector& way) const {
     return {semi_axes_.x * m.x / size, semi_axes_.y * m.y / size, semi_axes_.z * m.z / size};
   }
   const double across = std::hypot(way.x, way.y);
-  const bool upper = way.z * (frustum_.high - frustum_.low) + across * (radius(true) - radius(false)) > 0;
+  const bool upper = way.z * (frustum_.high - frustum_.low) + across * (frustum_.high_radius - frustum_.low_radius) > 0;
   const double by = across > 0 ? radius(upper) / across : 0;
   return {by * way.x, by * way.y, height(upper)};
 }
@@ -97,7 +97,7 @@ double apart(const QuadricSolid& s, const Vector& p) {
     return (norm(Vector{p.x / a.x, p.y / a.y, p.z / a.z}) - 1) * std::min({a.x, a.y, a.z});
   }
   const double of_mantle = (std::hypot(p.x, p.y) - s.radius_at(p.z)) / std::hypot(1, s.slope());
-  return std::max({of_mantle, s.height(false) - p.z, p.z - s.height(true)});
+  return std::max({of_mantle, s.frustum().low - p.z, p.z - s.frustum().high});
 }
 
 namespace {

@@ -79,10 +79,7 @@ class Revolving {
 
 }  // namespace
 
-bool Sweep::full() const {
-  constexpr double rounding = 1e-9;  // 360D has some
-  return std::abs(angle) >= full_turn * (1 - rounding);
-}
+bool Sweep::full() const { return std::abs(angle) >= full_turn * (1 - rounding_of_turn); }
 
 Mesh revolved(std::span<const Meridian> profile, bool ring, const Sweep& sweep) {
   return Revolving(profile, ring, sweep).mesh();

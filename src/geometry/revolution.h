@@ -8,6 +8,8 @@
 
 namespace dynalin {
 
+inline constexpr double rounding_of_turn = 1e-9;  // of a whole one: 360D has some
+
 // A part of a turn about z, right-handed from azimuth `start`, that x has as 0.
 struct Sweep {
   double angle = 2 * std::numbers::pi;  // [rad], of either sign, at most one turn

@@ -28,7 +28,8 @@ Vector highest_of(const QuadricSolid& solid, const ConicPiece& p, const Vector& 
 // A direction in which no rim, facet or edge is drawn as a rule, so much along z that poles are on either rim.
 Vector upwards(const QuadricSolid& s) {
   if (!s.has_ends()) return {0.3127, 0.5411, 0.7807};
-  const double along = s.height(true) - s.height(false), across = std::max(s.radius(true), s.radius(false));
+  const double along = s.frustum().high - s.frustum().low,
+               across = std::max(s.frustum().high_radius, s.frustum().low_radius);
   const double share = 0.01 * along / across;
   return normalized(Vector{0.8293 * share, 0.5588 * share, 1});
 }

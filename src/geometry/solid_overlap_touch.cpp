@@ -68,7 +68,7 @@ T length_out_of(const PlacedSolid<QuadricSolid, T>& I, const Vec3<T>& from, cons
   seam = std::numeric_limits<double>::infinity();
   if (s.has_ends()) {
     const double r = std::hypot(line.to.x, line.to.y);
-    seam = line.to_at == SolidFace::curved ? std::min(line.to.z - s.height(false), s.height(true) - line.to.z)
+    seam = line.to_at == SolidFace::curved ? std::min(line.to.z - s.frustum().low, s.frustum().high - line.to.z)
                                            : s.radius(line.to_at == SolidFace::high) - r;
   }
   if (line.to_at != SolidFace::curved) return (s.height(line.to_at == SolidFace::high) - p.z) / w.z;

@@ -133,7 +133,7 @@ bool SolidSums::finish(bool lower, bool upper) {
 // is large that cancels, whether the volume is small or the solid comes to a point in it.
 bool SolidSums::finish_frustum(bool lower, bool upper) {
   constexpr double one_turn = 1e-3;
-  const bool widens = solid_.radius(true) > solid_.radius(false);
+  const bool widens = solid_.frustum().high_radius > solid_.frustum().low_radius;
   base_ = solid_.height(widens);
   for (const ConicPiece& p : on_mantle_) {
     for (const double z : {p.from.z, p.to.z}) base_ = widens ? std::min(base_, z) : std::max(base_, z);

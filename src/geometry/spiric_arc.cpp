@@ -97,8 +97,8 @@ bool SpiricPieces::is_smooth(const SpiricPiece& p) const {
   }
   const auto size = [](const double(&tail)[2]) { return std::abs(tail[0]) + std::abs(tail[1]); };
   // Where it is short roundings of its places count.
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  return size(height) + size(about_axis) + size(in_tube) <= (small_tail + rounding * share * share) * length;
+  constexpr double rounding_of_tail = 4 * std::numeric_limits<double>::epsilon();
+  return size(height) + size(about_axis) + size(in_tube) <= (small_tail + rounding_of_tail * share * share) * length;
 }
 
 bool SpiricPieces::add_part(const Vector& from, const Vector& to, std::size_t stretch, double begin, double end,

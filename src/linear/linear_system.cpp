@@ -234,9 +234,9 @@ Result<LinearSystem> linearize(const System& system, OperatingPoint op, const Li
     linear->beside_coefficients = of_velocities;
   }
   const NearSingularity& near = linear->near_singularity;
-  constexpr double worth_a_warning = 1e-6, worth_a_look = 1e-3, singular = 1e-7;
+  constexpr double worth_a_warning = 1e-6, worth_a_look = 1e-3, too_near_singular = 1e-7;
   // So near that accelerations, too, are lost in their own rounding, what velocities make of them tells nothing.
-  const bool lost = near.distance < singular && relative_size(system, op, *linear, linear->rounding) > 10;
+  const bool lost = near.distance < too_near_singular && relative_size(system, op, *linear, linear->rounding) > 10;
   if (lost || !(relative_size(system, op, *linear, of_velocities) < 1)) {
     return tl::unexpected(
         Failure{"linear analysis",

@@ -256,8 +256,9 @@ void apply_partials(const PairMotion& p, const PairForce& f, Equations& eq, Part
   });
 }
 
-void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
+void apply_column(const PairMotion& p, const Vector& force, const Vector& torque, Reaction reaction, PartialBy family,
                   std::int32_t column, Equations& eq) {
+  const bool acts_on_J = reaction != Reaction::none;
   eq.add_column(family, p.body_I, column, force, cross(value(p.arm_I), force) + torque);
   if (acts_on_J) {
     eq.add_column(family, p.body_J, column, -force, -(cross(value(p.arm), force) + torque));
@@ -277,7 +278,7 @@ void apply_turn(const PairMotion& p, const MarkerPlace& axes, const Matrix3& for
       *p.motion, axes, eq.layout(), [&](std::int32_t column, std::size_t count, const Matrix3& turns) {
         const Matrix3 F = force * turns, T = torque * turns;
         for (std::size_t c = 0; c < count; ++c)
-          apply_column(p, F[c], T[c], true, PartialBy::position, column + static_cast<std::int32_t>(c), eq);
+          apply_column(p, F[c], T[c], Reaction::at_I, PartialBy::position, column + static_cast<std::int32_t>(c), eq);
       });
 }
 
@@ -287,8 +288,8 @@ void apply_cross_partials(const PairMotion& acting, const PairMotion& varied, co
     const BlockPartials on = partials_by(b, f);
     for (std::size_t c = 0; c < b.count; ++c) {
       const std::int32_t column = b.column + static_cast<std::int32_t>(c);
-      apply_column(acting, on.force[c], on.torque[c], true, PartialBy::position, column, eq);
-      apply_column(acting, on.force_by_rate[c], on.torque_by_rate[c], true, velocity_family, column, eq);
+      apply_column(acting, on.force[c], on.torque[c], Reaction::at_I, PartialBy::position, column, eq);
+      apply_column(acting, on.force_by_rate[c], on.torque_by_rate[c], Reaction::at_I, velocity_family, column, eq);
     }
   });
 }

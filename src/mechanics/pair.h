@@ -72,8 +72,8 @@ PairForce around_origin(double on_distance, Partials wanted);
 void apply(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);
 // The partials alone, for forces whose residual is added elsewhere (reactions come from the constraint rows).
 void apply_partials(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);
-// Adds the column of a scalar unknown that scales (force, torque) on I.
-void apply_column(const PairMotion&, const Vector& force, const Vector& torque, bool acts_on_J, PartialBy family,
+// Adds the column of a scalar unknown that scales (force, torque) on I and what takes the opposite.
+void apply_column(const PairMotion&, const Vector& force, const Vector& torque, Reaction, PartialBy family,
                   std::int32_t column, Equations&);
 
 // Adds the partials of force and torque on I with respect to the rotation of the axes of any marker.

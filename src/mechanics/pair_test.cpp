@@ -332,8 +332,9 @@ TEST(Pair, a_scalar_unknown_scales_what_acts_on_both_bodies) {
   const Vector f = p.vector(), t = p.vector();
   const Balance expected = balance(p.now(), real(f), real(t));
   for (const bool on_J : {true, false}) {
-    const Equations eq = assembled(p.layout, {PartialBy::algebraic},
-                                   [&](Equations& e) { apply_column(pair, f, t, on_J, PartialBy::algebraic, 1, e); });
+    const Equations eq = assembled(p.layout, {PartialBy::algebraic}, [&](Equations& e) {
+      apply_column(pair, f, t, on_J ? Reaction::at_I : Reaction::none, PartialBy::algebraic, 1, e);
+    });
     const ColumnMatrix& m = eq.matrix(PartialBy::algebraic);
     expect_balance(
         p, [&](std::int32_t row) { return entry(m, row, 1); }, expected, on_J, "its unknown");

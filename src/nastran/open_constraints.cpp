@@ -14,7 +14,7 @@ namespace {
 
 // The components that rows of six hold, if they hold nothing else: "12345", empty if they mix components.
 std::string unit_components(Eigen::MatrixXd rows) {
-  constexpr double rounding_of_axes = 1e-9;  // as good as positions satisfy constraints
+  constexpr double other_components = 1e-9;  // as good as positions satisfy constraints
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const double size = rows.row(r).norm();
     if (size == 0) return {};
@@ -34,7 +34,7 @@ std::string unit_components(Eigen::MatrixXd rows) {
   }
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     for (Eigen::Index c = 0; c < 6; ++c) {
-      if (c != components[static_cast<std::size_t>(r)] - '1' && std::abs(rows(r, c)) > rounding_of_axes) return {};
+      if (c != components[static_cast<std::size_t>(r)] - '1' && std::abs(rows(r, c)) > other_components) return {};
     }
   }
   std::ranges::sort(components);

@@ -194,7 +194,7 @@ void OpenForces::subtract(const Place& place, MatrixKind kind, const std::array<
 }
 
 void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& entries, Diagnostics& remarks) {
-  constexpr double rounding_of_sums = 1e-13;  // of sums over the terms of a force
+  constexpr double rounding_of_terms = 1e-13;  // of sums over the terms of a force
   Place place;
   if (!find_place(label, place)) return;
   Bush bush;
@@ -212,7 +212,7 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
     for (std::size_t k = 0; k < 6; ++k) {
       if (place.along_line && k != 0) continue;
       const double v = k < 3 ? at.translation(k, k) : at.rotation(k - 3, k - 3);
-      const double least = rounding_of_sums * (k < 3 ? at.size_of_translation : at.size_of_rotation);
+      const double least = rounding_of_terms * (k < 3 ? at.size_of_translation : at.size_of_rotation);
       diagonal[k] = v > least ? v : 0;
       if (v < -least)
         negative += fmt::format("{}{}{}", negative.empty() ? "" : ", ", "KB"[kind == MatrixKind::B], k + 1);
@@ -230,7 +230,7 @@ void OpenForces::add_bush(const ElementLabel& label, std::vector<MatrixEntry>& e
     }
     entries.clear();
   }
-  add_up(entries, rounding_of_sums);
+  add_up(entries, rounding_of_terms);
 }
 
 // --- matrices --------------------------------------------------------------------------------------------------------

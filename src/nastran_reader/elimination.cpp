@@ -18,7 +18,7 @@ constexpr double pivot_share = 0.5;
 // A row of which less is left waits for the others: it may turn out to be redundant.
 constexpr double waiting_below = 1e-3;
 // What differs by less is the same number computed in two ways.
-constexpr double cancelled = 64 * std::numeric_limits<double>::epsilon();
+constexpr double cancelled_coefficient = 64 * std::numeric_limits<double>::epsilon();
 
 double power_of_two(double x) { return std::exp2(-std::round(std::log2(x))); }
 
@@ -156,7 +156,7 @@ class Eliminator {
       }
       const double sum = a->second + change;
       if (a->first != pivot) {
-        if (std::abs(sum) > cancelled * std::max(std::abs(a->second), std::abs(change))) {
+        if (std::abs(sum) > cancelled_coefficient * std::max(std::abs(a->second), std::abs(change))) {
           merged.emplace_back(a->first, sum);
         } else {
           holders_[static_cast<std::size_t>(a->first)].erase(static_cast<int>(other));
@@ -205,7 +205,7 @@ class Eliminator {
       Row& row = T[static_cast<std::size_t>(p->column)];
       for (const int k : used) {
         const auto at = static_cast<std::size_t>(k);
-        if (std::abs(sum[at]) > cancelled * size[at]) row.emplace_back(k, sum[at]);
+        if (std::abs(sum[at]) > cancelled_coefficient * size[at]) row.emplace_back(k, sum[at]);
         sum[at] = size[at] = 0, touched[at] = false;
       }
     }

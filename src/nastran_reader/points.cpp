@@ -8,13 +8,13 @@
 #include <numbers>
 #include <set>
 
+#include "base/degree.h"
+
 namespace dynalin::nastran_reader {
 
 namespace {
 
 using Eigen::Matrix3d;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Systems and grids define each other: systems by coordinates in others, or by grids, which lie in systems.
 class Resolver {

@@ -64,8 +64,10 @@ using Wide = std::complex<long double>;
 
 MatrixXcd at(const Scaled& s, Complex z) { return z * z * s.M + z * s.B + s.K.cast<Complex>(); }
 
+enum class Of : bool { value, derivative };
 // wᴴ Q(z) v or its derivative by z, summed in extended precision: what cancels is what matters.
-Wide form(const Scaled& s, Complex z, const VectorXcd& w, const VectorXcd& v, bool derivative) {
+Wide form(const Scaled& s, Complex z, const VectorXcd& w, const VectorXcd& v, Of of) {
+  const bool derivative = of == Of::derivative;
   const Wide x(z);
   const Wide of_m = derivative ? 2.0L * x : x * x, of_b = derivative ? Wide(1) : x,
              of_k = derivative ? Wide(0) : Wide(1);
@@ -145,9 +147,9 @@ Complex refined(const Scaled& s, const Complex first, double distance) {
   for (int k = 0; k < 6; ++k) {
     const Vectors v = inverse_iteration(s, z);
     if (!v.right.allFinite() || !v.left.allFinite()) return first;
-    const Wide slope = form(s, z, v.left, v.right, true);
+    const Wide slope = form(s, z, v.left, v.right, Of::derivative);
     if (slope == Wide(0)) return first;
-    const Complex step(form(s, z, v.left, v.right, false) / slope);
+    const Complex step(form(s, z, v.left, v.right, Of::value) / slope);
     const double relative = std::abs(step) / std::abs(z);
     if (!(relative < last)) break;  // rounding, or no convergence
     z -= z.imag() == 0 ? Complex(step.real(), 0) : step;

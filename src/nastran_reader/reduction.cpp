@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-constexpr double cancelled = 128 * std::numeric_limits<double>::epsilon();
+constexpr double cancelled_entry = 128 * std::numeric_limits<double>::epsilon();
 
 // Dense where T is: chains in relative coordinates move everything behind a joint.
 MatrixXd congruent(const RowMajor& X, const RowMajor& T) {
@@ -40,7 +40,7 @@ MatrixXd cleaned(const SparseMatrix& X, const RowMajor& T, const RowMajor& T_siz
   const RowMajor by_rows = X;
   MatrixXd m = congruent(by_rows, T);
   const MatrixXd size = congruent(by_rows.cwiseAbs(), T_size);
-  m = (m.array().abs() <= cancelled * size.array()).select(0, m);
+  m = (m.array().abs() <= cancelled_entry * size.array()).select(0, m);
   return m;
 }
 

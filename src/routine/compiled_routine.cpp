@@ -79,7 +79,7 @@ CompiledRoutine::CompiledRoutine(FoundRoutine found, const RoutineKind& kind, st
     // What comes as arguments it need not ask for.
     if (kind.arguments == RoutineArguments::system) {
       for (const int array : {statement_.gse->X, statement_.gse->U}) {
-        if (array != 0) asking.request("ARRAY", {&array, 1}, false);
+        if (array != 0) asking.request("ARRAY", {&array, 1}, Quantity::list);
       }
     }
     {

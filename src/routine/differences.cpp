@@ -15,8 +15,8 @@ constexpr std::size_t most_steps = 24, least_steps = 4, most_orders = 4;
 constexpr std::size_t utmost_steps = 60;  // where a slope falls with the step towards a point nearer than all of those
 // Parts of the last step, no whole numbers of each other, at which a law may turn out to be another one near by.
 constexpr std::array nearer = {0.0371, 0.00139, 5.17e-5};
-constexpr double seen_nearer = 1e-7;   // relative change of the slope or its bend
-constexpr double good_enough = 1e-11;  // relative change of the last extrapolation
+constexpr double seen_nearer = 1e-7;             // relative change of the slope or its bend
+constexpr double settled_extrapolation = 1e-11;  // relative change of the last extrapolation
 // The best extrapolation may be off by this part of itself, or make as little difference over the first step.
 constexpr double disagreement = 0.01, hidden_by_rounding = 1e-6;
 
@@ -73,7 +73,7 @@ class Course {
     if (rows_.size() < least_steps || doubted_) return false;
     const Row& last = rows_.back();
     if (std::ranges::all_of(rows_, [](const Row& r) { return r.difference == 0; })) return true;
-    return last.error <= good_enough * std::abs(last.best) && std::ranges::all_of(rows_, [&](const Row& r) {
+    return last.error <= settled_extrapolation * std::abs(last.best) && std::ranges::all_of(rows_, [&](const Row& r) {
              return !(r.error <= disagreement * std::abs(r.best)) ||
                     std::abs(r.best - last.best) <= 4 * r.error + disagreement * disagreement * std::abs(last.best);
            });
@@ -273,9 +273,9 @@ std::vector<Slope> extrapolated_slope(const ValuesAt& f, double x, std::size_t v
 double change_by(double derivative, double x) { return std::abs(derivative) * std::max(1.0, std::abs(x)); }
 
 bool contradicts(const Slope& slope, double given, double x, double greatest_change) {
-  constexpr double unlike = 1e-3, lost = 1e-13;
+  constexpr double unlike = 1e-3, change_that_is_lost = 1e-13;
   const double size = std::max(std::abs(given), std::abs(slope.value)), off = std::abs(given - slope.value);
-  if (change_by(off, x) <= lost * greatest_change) return false;
+  if (change_by(off, x) <= change_that_is_lost * greatest_change) return false;
   if (!slope.agreed || !(off > unlike * size + 4 * slope.error + slope.unseen)) return false;
   return slope.half_kink == 0 || off > 1.01 * std::abs(slope.half_kink);  // one side, or between both
 }

@@ -50,11 +50,11 @@ void to_angles(const std::array<int, 3>& axes, const Rotation& q, double* angles
   const double both = std::hypot(a, b), other = std::hypot(c, d);
   double middle = 2 * std::atan2(other, both);
   const double plus = std::atan2(b, a), minus = std::atan2(d, c);
-  constexpr double nearly = 1e-14;
+  constexpr double part_that_vanishes = 1e-14;
   double last = 0, first = 0;
-  if (other <= nearly * both) {
+  if (other <= part_that_vanishes * both) {
     first = 2 * plus;
-  } else if (both <= nearly * other) {
+  } else if (both <= part_that_vanishes * other) {
     first = 2 * minus;
   } else {
     last = plus - minus, first = plus + minus;

@@ -26,7 +26,7 @@ struct ReadArray {
 ReadArray read_array(const RoutineContext& c, int array, int size) {
   ReadArray out;
   out.values.assign(static_cast<std::size_t>(size), 0.0);
-  out.request = array == 0 ? nullptr : c.known("ARRAY", {&array, 1}, false);
+  out.request = array == 0 ? nullptr : c.known("ARRAY", {&array, 1}, Quantity::list);
   if (!out.request || c.phase == RoutineContext::Phase::asking) return out;
   for (std::size_t k = 0; k < out.values.size(); ++k)
     out.values[k] = c.inputs[static_cast<std::size_t>(out.request->inputs[k])];

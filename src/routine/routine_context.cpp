@@ -70,8 +70,8 @@ bool same_name(std::string_view a, std::string_view b) {
          });
 }
 
-bool is_it(const RoutineRequest& r, std::string_view name, std::span<const int> ids, bool single) {
-  return r.single == single && std::ranges::equal(r.ids, ids) && same_name(r.name, name);
+bool is_it(const RoutineRequest& r, std::string_view name, std::span<const int> ids, Quantity quantity) {
+  return r.quantity == quantity && std::ranges::equal(r.ids, ids) && same_name(r.name, name);
 }
 
 void write_all(std::string_view text) {
@@ -147,28 +147,28 @@ RoutineContext::Scope::~Scope() {
   what_is_at_work = what_before_;
 }
 
-const RoutineRequest* RoutineContext::known(std::string_view name, std::span<const int> ids, bool single) const {
+const RoutineRequest* RoutineContext::known(std::string_view name, std::span<const int> ids, Quantity quantity) const {
   const RoutineRequests* all = phase == Phase::asking ? asked : requests;
   const std::size_t count = all->list.size();
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t at = (next_ + k) % count;
-    if (!is_it(all->list[at], name, ids, single)) continue;
+    if (!is_it(all->list[at], name, ids, quantity)) continue;
     next_ = at + 1;
     return &all->list[at];
   }
   return nullptr;
 }
 
-const RoutineRequest* RoutineContext::request(std::string_view name, std::span<const int> ids, bool single) {
-  if (const RoutineRequest* r = known(name, ids, single)) return r;
-  if (phase == Phase::asking) return ask(name, ids, single);
+const RoutineRequest* RoutineContext::request(std::string_view name, std::span<const int> ids, Quantity quantity) {
+  if (const RoutineRequest* r = known(name, ids, quantity)) return r;
+  if (phase == Phase::asking) return ask(name, ids, quantity);
   fail(fmt::format("it reads {}({}), for which it did not ask when iflag was 1 or 3", name, fmt::join(ids, ", ")));
   return nullptr;
 }
 
-const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const int> ids, bool single) {
+const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const int> ids, Quantity quantity) {
   std::vector<Atom> atoms;
-  if (single) {
+  if (quantity == Quantity::number) {
     if (const auto atom = single_measure(name, ids)) atoms.push_back(*atom);
   } else if (auto list = measure_list(name, ids, *size_of)) {
     atoms = std::move(*list);
@@ -179,7 +179,7 @@ const RoutineRequest* RoutineContext::ask(std::string_view name, std::span<const
     fail(fmt::format("it asks for {}({}), which is no quantity of the model", name, fmt::join(ids, ", ")));
     return nullptr;
   }
-  RoutineRequest r{std::string(name), single, {ids.begin(), ids.end()}, {}};
+  RoutineRequest r{std::string(name), quantity, {ids.begin(), ids.end()}, {}};
   for (const Atom& a : atoms) {
     const auto found = std::find_if(asked->inputs.begin(), asked->inputs.end(), [&](const Atom& other) {
       return other.function == a.function && other.argument == a.argument;

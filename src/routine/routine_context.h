@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cfenv>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,10 +15,13 @@ namespace dynalin {
 
 struct RoutineData;
 
+// By SYSFNC, or by SYSARY and GTARAY.
+enum class Quantity : std::uint8_t { number, list };
+
 // Something that a routine asked for, and which of its inputs that is.
 struct RoutineRequest {
   std::string name;
-  bool single = false;  // by SYSFNC
+  Quantity quantity = Quantity::list;
   std::vector<int> ids;
   std::vector<std::int32_t> inputs;
 };
@@ -48,9 +52,9 @@ class RoutineContext {
 
   bool wants_partials() const { return !partials.empty(); }
   // Null, with the failure noted, if there is no such quantity or it was not asked for in time.
-  const RoutineRequest* request(std::string_view name, std::span<const int> ids, bool single);
+  const RoutineRequest* request(std::string_view name, std::span<const int> ids, Quantity);
   // The same without a failure, for partial derivatives.
-  const RoutineRequest* known(std::string_view name, std::span<const int> ids, bool single) const;
+  const RoutineRequest* known(std::string_view name, std::span<const int> ids, Quantity) const;
   void fail(std::string reason) {
     if (failure.empty()) failure = std::move(reason);
   }
@@ -89,7 +93,7 @@ class RoutineContext {
   };
 
  private:
-  const RoutineRequest* ask(std::string_view name, std::span<const int> ids, bool single);
+  const RoutineRequest* ask(std::string_view name, std::span<const int> ids, Quantity);
   mutable std::size_t next_ = 0;  // routines ask in the same order each time
 };
 

@@ -26,13 +26,13 @@ double input_value(const RoutineContext& c, std::int32_t input) {
   return c.phase == RoutineContext::Phase::asking ? 0.0 : c.inputs[static_cast<std::size_t>(input)];
 }
 
-void read(std::string_view name, const int* ipar, int nsize, bool single, double* out, int* count, int* errflg) {
+void read(std::string_view name, const int* ipar, int nsize, Quantity quantity, double* out, int* count, int* errflg) {
   RoutineContext* c = RoutineContext::current();
-  const RoutineRequest* r = c ? c->request(name, ids_of(ipar, nsize), single) : nullptr;
+  const RoutineRequest* r = c ? c->request(name, ids_of(ipar, nsize), quantity) : nullptr;
   *errflg = r == nullptr;
   if (count) *count = r ? static_cast<int>(r->inputs.size()) : 0;
   if (!r) {
-    if (single) *out = 0;
+    if (quantity == Quantity::number) *out = 0;
     return;
   }
   if (!out) return;  // who only wants to know how many
@@ -66,8 +66,8 @@ void give(std::string_view name, const int* ipar, int nsize, const double* parti
     *errflg = !give_partials(*c, "TIME", time, partial, count);
     return;
   }
-  const RoutineRequest* r = c->known(name, ids, false);
-  if (!r) r = c->known(name, ids, true);
+  const RoutineRequest* r = c->known(name, ids, Quantity::list);
+  if (!r) r = c->known(name, ids, Quantity::number);
   if (!r) return;
   *errflg = !give_partials(*c, name, r->inputs, partial, count);
 }
@@ -89,7 +89,7 @@ void read_list(std::string_view name, int id, double* out, int size, int expecte
     return c->fail(fmt::format("it asks for {} numbers where its GSE has {}", size, expected));
   }
   int count = 0, errflg = 0;
-  read(name, &id, 1, false, out, &count, &errflg);
+  read(name, &id, 1, Quantity::list, out, &count, &errflg);
 }
 
 void give_list(std::string_view name, int id, const double* partial, int count) {
@@ -142,21 +142,23 @@ using namespace dynalin;
 extern "C" {
 
 void c_sysfnc(const char* name, const int* ipar, int nsize, double* state, int* errflg) {
-  read(text_of(name), ipar, nsize, true, state, nullptr, errflg);
+  read(text_of(name), ipar, nsize, Quantity::number, state, nullptr, errflg);
 }
 void sysfnc_(const char* name, const int* ipar, const int* nsize, double* state, int* errflg, std::size_t length) {
-  read(text_of(name, length), ipar, *nsize, true, state, nullptr, errflg);
+  read(text_of(name, length), ipar, *nsize, Quantity::number, state, nullptr, errflg);
 }
 
 void c_sysary(const char* name, const int* ipar, int nsize, double* states, int* nstates, int* errflg) {
-  read(text_of(name), ipar, nsize, false, states, nstates, errflg);
+  read(text_of(name), ipar, nsize, Quantity::list, states, nstates, errflg);
 }
 void sysary_(const char* name, const int* ipar, const int* nsize, double* states, int* nstates, int* errflg,
              std::size_t length) {
-  read(text_of(name, length), ipar, *nsize, false, states, nstates, errflg);
+  read(text_of(name, length), ipar, *nsize, Quantity::list, states, nstates, errflg);
 }
 
-void c_gtaray(int id, double* array, int* number, int* istat) { read("ARRAY", &id, 1, false, array, number, istat); }
+void c_gtaray(int id, double* array, int* number, int* istat) {
+  read("ARRAY", &id, 1, Quantity::list, array, number, istat);
+}
 void gtaray_(const int* id, double* array, int* number, int* istat) { c_gtaray(*id, array, number, istat); }
 
 void c_adams_needs_partials(int* wanted) {
@@ -228,12 +230,12 @@ int dynalin_gse_array(int which) {
 
 int dynalin_input(const char* name, const int* ipar, int nsize) {
   const RoutineContext* c = RoutineContext::current();
-  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), true) : nullptr;
+  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), Quantity::number) : nullptr;
   return r ? r->inputs.front() : -1;
 }
 int dynalin_input_of_array(const char* name, const int* ipar, int nsize, int n) {
   const RoutineContext* c = RoutineContext::current();
-  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), false) : nullptr;
+  const RoutineRequest* r = c ? c->known(text_of(name), ids_of(ipar, nsize), Quantity::list) : nullptr;
   return r && n >= 0 && static_cast<std::size_t>(n) < r->inputs.size() ? r->inputs[static_cast<std::size_t>(n)] : -1;
 }
 

@@ -58,7 +58,8 @@ class Dynamics {
     if (!begun_with) return tl::unexpected(begun_with.error());
     const EventAction& at_start = *begun_with;
     watch_point();
-    if (!hand_out(point_, true, at_start.text)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
+    if (!hand_out(point_, Instant::output, at_start.text))
+      return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
     if (at_start.output_step) change_outputs(*at_start.output_step);
     if (MotionUnknowns(system_).size() == 0) return pass_time();
@@ -85,7 +86,7 @@ class Dynamics {
         last_output_.memory = point_.memory, last_output_.delays = point_.delays;
         return AdvancedPoint{std::move(last_output_), SimulationEnd::reached};
       }
-      if (!going_on || !hand_out(point_, false)) return ended(SimulationEnd::stopped);
+      if (!going_on || !hand_out(point_, Instant::between_outputs)) return ended(SimulationEnd::stopped);
       if (outcome == DaeIntegrator::Outcome::event) {
         auto action = pass_event(integrator_->crossed());
         if (!action) return tl::unexpected(action.error());
@@ -119,7 +120,7 @@ class Dynamics {
   Result<AdvancedPoint> pass_time() {
     for (; next_ <= times_.count(); ++next_) {
       point_.time = times_.at(next_);
-      if (!hand_out(point_, true)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
+      if (!hand_out(point_, Instant::output)) return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     }
     return AdvancedPoint{std::move(point_), SimulationEnd::reached};
   }
@@ -223,13 +224,13 @@ class Dynamics {
         found = std::move(*whole);
       }
       last_output_ = moved_far(at, *found) ? std::move(at) : std::move(*found);
-      going_on = hand_out(last_output_, true);
+      going_on = hand_out(last_output_, Instant::output);
     }
     return {};
   }
 
-  bool hand_out(const OperatingPoint& point, bool output, std::string_view text = {}) {
-    return !watch_ || watch_({system_, point, output, statistics_, text}) == GoOn::yes;
+  bool hand_out(const OperatingPoint& point, Instant instant, std::string_view text = {}) {
+    return !watch_ || watch_({system_, point, instant == Instant::output, statistics_, text}) == GoOn::yes;
   }
 
   Result<AdvancedPoint> ended(SimulationEnd end) {
@@ -253,7 +254,7 @@ class Dynamics {
     events_.values(system_.motion(point_), behind);
     for (std::size_t k = 0; k < crossed.size(); ++k)
       crossed[k] = before[k] * behind[k] < 0 ? (behind[k] > 0 ? 1 : -1) : 0;
-    return pass_event(crossed, true);
+    return pass_event(crossed, Restart::always);
   }
 
   // What sensors watch at the point, which may jump from there to the next event.
@@ -274,11 +275,12 @@ class Dynamics {
   }
 
   // What follows from switches and sensors at the point; where nothing does the integration goes on.
-  Result<EventAction> pass_event(std::span<const int> crossed, bool restart = false) {
+  enum class Restart : bool { where_asked, always };
+  Result<EventAction> pass_event(std::span<const int> crossed, Restart restart = Restart::where_asked) {
     if (auto passed = density_.pass(point_.time, bounds_.tolerance.duration); !passed)
       return tl::unexpected(passed.error());
     EventAction action = events_.at(crossed, point_);
-    action.restart = action.restart || restart;
+    action.restart = action.restart || restart == Restart::always;
     bool anew = false;
     std::vector<char> seen(crossed.size());
     std::ranges::transform(crossed, seen.begin(), [](int way) { return way != 0; });
@@ -301,7 +303,8 @@ class Dynamics {
     const bool is_told =
         !action.restart && std::abs(point_.time - last_output_.time) <= same_instant * bounds_.tolerance.duration;
     const bool output = (action.output || action.ends()) && !is_told;
-    if ((output || !action.text.empty()) && !hand_out(point_, output, action.text)) action.returns = stopped_ = true;
+    if ((output || !action.text.empty()) && !hand_out(point_, instant_of(output), action.text))
+      action.returns = stopped_ = true;
     if (action.ends()) return action;
     if (action.output_step) change_outputs(*action.output_step);
     if (action.restart) {

@@ -22,7 +22,7 @@ constexpr double continuation = 0.05;  // of its way: how far a step may differ 
 constexpr double no_way = 1e-6;        // in lengths of the model and radians: no smaller differences are looked at
 constexpr double passage = 1e-4;       // in the same: on so short a way the rows may change their orientation
 constexpr double leap = 1e-3;          // half of a way on which a singular configuration is leapt over
-constexpr double singular = 1e-5;      // rows that hold so much less than elsewhere leave nothing but rounding
+constexpr double lost_hold = 1e-5;     // rows that hold so much less than elsewhere leave nothing but rounding
 constexpr double loose = 1e-3;         // the same, for what is to blame where nothing goes on
 constexpr int creeping_limit = 500;    // steps in a row that are taken for being next to nothing alone,
 constexpr double creeping = 1e-3;      // and are shorter than this part of those that are wanted
@@ -66,7 +66,7 @@ class KinematicRun {
 
   Result<AdvancedPoint> run() {
     if (auto begun = begin(); !begun) return tl::unexpected(begun.error());
-    bool goes_on = look_at_accepted(at_, true);
+    bool goes_on = look_at_accepted(at_, Instant::output);
     double h = std::min(times_.step(), largest_step_);
     std::int64_t k = 1;  // the next output
     while (k <= times_.count() && goes_on) {
@@ -87,7 +87,7 @@ class KinematicRun {
         if (leaps && (k > times_.count() || !goes_on)) break;
         const bool output = at_.time == target;
         if (output) ++k;
-        goes_on = look_at_accepted(at_, output);
+        goes_on = look_at_accepted(at_, instant_of(output));
         continue;
       }
       if (choose_other_rows()) continue;
@@ -174,7 +174,7 @@ class KinematicRun {
     const bool reached = predicted(way, to) && !(missed_ = equations_.solve_position(to, limits_));
     const double hold = reached ? equations_.hold() : 0;
     const int orientation = reached ? equations_.orientation() : 0;
-    nears_singular_ = (reached && hold < singular * hold_) || missed_ == KinematicEquations::Missed::singular;
+    nears_singular_ = (reached && hold < lost_hold * hold_) || missed_ == KinematicEquations::Missed::singular;
     const bool completed = reached && !nears_singular_ && complete(to);
     statistics_.evaluations += equations_.evaluations() - evaluations;
     statistics_.jacobians += equations_.factorizations() - factorizations;
@@ -254,16 +254,16 @@ class KinematicRun {
   }
 
   // The one place where every accepted point is looked at.
-  bool look_at_accepted(const OperatingPoint& point, bool output) {
+  bool look_at_accepted(const OperatingPoint& point, Instant instant) {
     if (!watch_) return true;
-    return watch_(SimulationStep{system_, point, output, statistics_}) == GoOn::yes;
+    return watch_(SimulationStep{system_, point, instant == Instant::output, statistics_}) == GoOn::yes;
   }
 
   // Outputs on a leap lie between its ends; the run may end with one of them.
   bool look_at_leapt(OperatingPoint& next, std::int64_t& k) {
     for (; k <= times_.count() && times_.at(k) <= next.time; ++k) {
       OperatingPoint output = interpolated(system_, at_, next, times_.at(k));
-      const bool goes_on = look_at_accepted(output, true), last = k == times_.count();
+      const bool goes_on = look_at_accepted(output, Instant::output), last = k == times_.count();
       if (goes_on && !last) continue;
       next = std::move(output);
       ++k;

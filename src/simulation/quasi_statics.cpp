@@ -77,7 +77,7 @@ class QuasiStaticRun {
       return tl::unexpected(at_time(times_.start(), first.error()));
     }
     const auto at_start = act_at_start();
-    auto begun = at_start ? follow(*at_start, true) : tl::unexpected(at_start.error());
+    auto begun = at_start ? follow(*at_start, Instant::output) : tl::unexpected(at_start.error());
     double h = times_.step();
     double pace = h;  // of turning, which a MOTION that stops does not do at once
     while (begun && !end_) {
@@ -111,7 +111,7 @@ class QuasiStaticRun {
       h = std::max(2 * step, std::min(h, left));
       pace += step;
       auto action = crosses ? act() : EventAction{};
-      begun = action ? follow(*action, at_.time == target) : tl::unexpected(action.error());
+      begun = action ? follow(*action, instant_of(at_.time == target)) : tl::unexpected(action.error());
     }
     if (!begun) return tl::unexpected(at_time(at_.time, begun.error()));
     return end(*end_);
@@ -254,8 +254,8 @@ class QuasiStaticRun {
   }
 
   // Hands out the equilibrium at hand, as every one is, and does what sensors ask for there.
-  Result<void> follow(const EventAction& action, bool output) {
-    const bool handed_out = output || action.output || action.ends();
+  Result<void> follow(const EventAction& action, Instant instant) {
+    const bool handed_out = instant == Instant::output || action.output || action.ends();
     const bool goes_on =
         !watch_ || watch_(SimulationStep{system_, at_, handed_out, statistics_, action.text}) == GoOn::yes;
     if (!goes_on) {

@@ -11,6 +11,10 @@
 
 namespace dynalin {
 
+// Whether an instant is one of output: the start, each step of output, the end.
+enum class Instant : bool { between_outputs, output };
+inline Instant instant_of(bool is_output) { return is_output ? Instant::output : Instant::between_outputs; }
+
 // An instant of a simulation. The point is consistent on all levels at an output time, and as the integrator has it
 // between.
 struct SimulationStep {

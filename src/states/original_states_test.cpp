@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "base/degree.h"
+
 namespace dynalin::original_states_test {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Body body_with(const Vector& inertia, const Matrix3& principal, const Matrix3& R_BI) {
   Body b;

@@ -13,6 +13,7 @@
 namespace dynalin {
 
 enum class MumpsSymmetry : int { none = 0, symmetric = 2 };
+enum class Transposed : bool { no, yes };
 
 template <class Problem>
 class MumpsMatrix {
@@ -74,11 +75,11 @@ class MumpsMatrix {
   }
   // In place, `at_once` of the columns together (ICNTL(27)); threads wait for each other.
   template <class Value>
-  void solve(Value* x, int columns, bool transposed = false, int at_once = 0) {
+  void solve(Value* x, int columns, Transposed transposed = Transposed::no, int at_once = 0) {
     const std::lock_guard lock(solving_);
     if (at_once > 0) control(27) = at_once;
     id_.rhs = reinterpret_cast<decltype(id_.rhs)>(x), id_.nrhs = columns, id_.lrhs = id_.n;
-    control(9) = transposed ? 0 : 1;
+    control(9) = transposed == Transposed::yes ? 0 : 1;
     call(3);
   }
 

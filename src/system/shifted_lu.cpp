@@ -30,7 +30,7 @@ class ComplexMumps {
     for_each_entry(m, [&](std::int32_t r, std::int32_t c, double) { mumps_.add_place(r, c); });
   }
   bool factor(std::vector<Complex>& value) { return mumps_.factor(rows_, value.data()) == 0; }
-  void solve(Complex* x, int columns, bool transposed) { mumps_.solve(x, columns, transposed); }
+  void solve(Complex* x, int columns, Transposed transposed) { mumps_.solve(x, columns, transposed); }
   Complex log_determinant() const {
     const ZMUMPS_STRUC_C& id = mumps_.problem();
     const Complex mantissa(id.rinfog[11], id.rinfog[12]);
@@ -108,7 +108,7 @@ bool ShiftedLu::factor(Complex shift) {
 
 void ShiftedLu::solve(Eigen::VectorXcd& b) const {
   const Factors& f = *factors_;
-  if (f.mumps) return f.mumps->solve(b.data(), 1, false);
+  if (f.mumps) return f.mumps->solve(b.data(), 1, Transposed::no);
   f.work.with(f.common, [&](klu_numeric* factors, klu_common* common) {
     klu_z_solve(f.symbolic, factors, f.matrix.rows, 1, reinterpret_cast<double*>(b.data()), common);
   });
@@ -118,7 +118,7 @@ void ShiftedLu::solve_adjoint(Eigen::VectorXcd& b) const {
   const Factors& f = *factors_;
   if (f.mumps) {
     b = b.conjugate().eval();
-    f.mumps->solve(b.data(), 1, true);
+    f.mumps->solve(b.data(), 1, Transposed::yes);
     b = b.conjugate().eval();
     return;
   }

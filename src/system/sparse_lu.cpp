@@ -77,7 +77,7 @@ class MumpsFactors {
   }
   int determinant_sign() const { return mumps_.problem().rinfog[11] < 0 ? -1 : 1; }
   void solve(double* x, int columns) { mumps_.solve(x, columns); }
-  void solve_transposed(double* x, int columns) { mumps_.solve(x, columns, true); }
+  void solve_transposed(double* x, int columns) { mumps_.solve(x, columns, Transposed::yes); }
   std::size_t entries() const {
     const int count = mumps_.problem().infog[28];
     return count < 0 ? static_cast<std::size_t>(-count) * 1000000u : static_cast<std::size_t>(count);

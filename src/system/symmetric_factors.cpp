@@ -50,7 +50,7 @@ struct SymmetricFactors::Inertia {
   }
   void solve(Eigen::MatrixXd& b) {
     const auto columns = static_cast<int>(b.cols());
-    mumps.solve(b.data(), columns, false, columns);
+    mumps.solve(b.data(), columns, Transposed::no, columns);
   }
 };
 

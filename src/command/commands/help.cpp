@@ -52,12 +52,9 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
 }
 
 constexpr std::array<ArgumentInfo, 1> help_arguments = {
-    {{"name",
-      false,
-      true,
-      ValueKind::none,
-      {},
-      "a statement, command or function, or one and a type of it; without one the list of all"}}};
+    {{.name = "name",
+      .is_flag = true,
+      .help = "a statement, command or function, or one and a type of it; without one the list of all"}}};
 
 constexpr std::array kinds = {
     CommandKind{.name = "HELP",

@@ -10,9 +10,12 @@ namespace dynalin::commands {
 
 // The class is a bare word.
 inline constexpr std::array<ArgumentInfo, 3> switching_arguments = {{
-    {"class", true, true, ValueKind::none, {}, "JOINT, SFORCE … : constraints, forces, sensors; the bare word"},
-    {"ID", false, false, ValueKind::ids, {}, "the elements"},
-    {"RANGE", false, false, ValueKind::ids, {}, "instead of ID: the first and the last id"},
+    {.name = "class",
+     .required = true,
+     .is_flag = true,
+     .help = "JOINT, SFORCE … : constraints, forces, sensors; the bare word"},
+    {.name = "ID", .value = ValueKind::ids, .help = "the elements"},
+    {.name = "RANGE", .value = ValueKind::ids, .help = "instead of ID: the first and the last id"},
 }};
 
 template <bool inactive>

@@ -29,7 +29,7 @@ class FePartSet final : public TypedSet<FePart> {
     const auto made_of = reader.element("MATERIAL", {*f.material, f.material_at});
     if (!made_of) return;
     f.made_of = *made_of;
-    const auto axes = orientation({f.angles, f.z_point, f.x_point, false, "REULER", "ZG", "XG"}, f.origin, reader);
+    const auto axes = orientation({f.angles, f.z_point, f.x_point, "REULER", "ZG", "XG"}, f.origin, reader);
     if (!axes) return;
     f.axes = *axes;
     if (f.plane) check_plane(f, reader);

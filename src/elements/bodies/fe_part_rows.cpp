@@ -60,7 +60,7 @@ Span number_at(const NodeRows& rows, std::size_t k, const ElementReader& reader)
 
 // By row; nothing after an error.
 std::optional<std::vector<std::int64_t>> row_labels(const NodeRows& rows, const FePart& f, ElementReader& reader) {
-  constexpr double largest = 9007199254740992.0;  // 2^53: beyond it neighbours coincide
+  constexpr double largest_label = 9007199254740992.0;  // 2^53: beyond it neighbours coincide
   const std::vector<double>& numbers = f.*rows.numbers;
   const std::string owner = fmt::format("{} of {}", rows.name, reader.label().text());
   const std::string hint = fmt::format("each node has {} numbers: {}", rows.width(), rows.of_a_node);
@@ -72,7 +72,7 @@ std::optional<std::vector<std::int64_t>> row_labels(const NodeRows& rows, const 
   std::vector<std::int64_t> labels;
   for (std::size_t k = 0; k < numbers.size(); k += rows.width()) {
     const double label = numbers[k];
-    if (!(label > 0) || label > largest || label != std::floor(label)) {
+    if (!(label > 0) || label > largest_label || label != std::floor(label)) {
       reader.error("expected-integer", number_at(rows, k, reader),
                    fmt::format("{} has {} where the label of a node belongs", owner, label), hint);
       return std::nullopt;

@@ -66,7 +66,7 @@ class FlexBodySet final : public TypedSet<FlexBody> {
                      "one of X, Y, Z, PSI, THETA, PHI");
       }
     }
-    const auto axes = orientation({f.angles, f.z_point, f.x_point, false, "REULER", "ZG", "XG"}, f.origin, reader);
+    const auto axes = orientation({f.angles, f.z_point, f.x_point, "REULER", "ZG", "XG"}, f.origin, reader);
     if (axes) f.axes = *axes;
     for (const auto& [word, at] : {std::pair<std::string_view, Span*>{"MATRICES", &f.matrices_at},
                                    {modal_starts.displacement, &f.displacements_at},

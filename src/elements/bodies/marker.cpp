@@ -135,7 +135,7 @@ class MarkerSet final : public TypedSet<ReadMarker> {
     marker.floating = m.floating;
     marker.place.body = *owner, marker.place.p_BM = m.origin;
     const auto axes =
-        orientation({m.angles, m.z_point, m.x_point, m.use_x_point, "REULER", "ZP", "XP"}, m.origin, reader);
+        orientation({m.angles, m.z_point, m.x_point, "REULER", "ZP", "XP", m.use_x_point}, m.origin, reader);
     if (axes) marker.place.R_BM = *axes;
   }
 

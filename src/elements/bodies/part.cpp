@@ -161,7 +161,7 @@ class PartSet final : public TypedSet<ReadPart> {
                      fmt::format("{} has inertia but no mass", reader.label().text()));
     }
     check_exact(p.exact, reader);
-    const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    const auto axes = orientation({p.angles, p.z_point, p.x_point, "REULER", "ZG", "XG"}, p.origin, reader);
     elements[k] = {p.ground, {}, p.mass, p.cm, p.im, p.vm, p.wm};
     if (axes) elements[k].pose = {p.origin, *axes};
     if (!p.ip.empty()) {

@@ -73,7 +73,7 @@ class PointMassSet final : public TypedSet<PointMass> {
   void read(std::size_t k, ElementReader& reader) override {
     PointMass& p = elements[k];
     if (!read_arguments(p, reader)) return;
-    const auto axes = orientation({p.angles, p.z_point, p.x_point, false, "REULER", "ZG", "XG"}, p.origin, reader);
+    const auto axes = orientation({p.angles, p.z_point, p.x_point, "REULER", "ZG", "XG"}, p.origin, reader);
     if (axes) p.axes = *axes;
     for (const std::string& word : p.exact) {
       if (word != "X" && word != "Y" && word != "Z") {

@@ -176,7 +176,7 @@ class CvcvSet final : public CurveContactSet<Cvcv, CurveOnCurve> {
       const Cvcv& e = elements[k];
       const ElementLabel& label = labels[k];
       const Curve *a = model.get<Curve>(e.icurve), *b = model.get<Curve>(e.jcurve);
-      if (!check_pair(model, label, e.irm, e.jrm, {true, true, true}, diagnostics) ||
+      if (!check_pair(model, label, e.irm, e.jrm, {.rotation_of_I = true, .rotation_of_J = true}, diagnostics) ||
           !check_contact_marker(model, label, e.ifloat, "IFLOAT", e.irm, diagnostics) ||
           !check_contact_marker(model, label, e.jfloat, "JFLOAT", e.jrm, diagnostics) ||
           !check_start_axes(model, label, e.iicm, "IICM", e.irm, diagnostics) ||

@@ -330,7 +330,8 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
         const auto freedom = joint_freedom(model, labels[k], m.joint, wanted, diagnostics);
         if (!freedom) continue;
         m.i = freedom->i, m.j = freedom->j, m.kind = freedom->kind;
-      } else if (!check_pair(model, labels[k], m.i, m.j, {true, is_angle(m.kind), true}, diagnostics)) {
+      } else if (!check_pair(model, labels[k], m.i, m.j, {.rotation_of_I = is_angle(m.kind), .rotation_of_J = true},
+                             diagnostics)) {
         continue;
       }
       m.start = m.icdisp.value_or(dynalin::displacement(m.kind, drawn_frame(model, m.i, m.j)));

@@ -104,7 +104,7 @@ class PlcvSet final : public CurveContactSet<Plcv, PlaneOnCurve> {
       const Plcv& e = elements[k];
       const ElementLabel& label = labels[k];
       const Curve* curve = model.get<Curve>(e.curve);
-      if (!check_pair(model, label, e.i, e.rm, {true, true, true}, diagnostics) ||
+      if (!check_pair(model, label, e.i, e.rm, {.rotation_of_I = true, .rotation_of_J = true}, diagnostics) ||
           !check_contact_marker(model, label, e.ifloat, "IFLOAT", e.i, diagnostics) ||
           !check_contact_marker(model, label, e.jfloat, "JFLOAT", e.rm, diagnostics) ||
           !check_start_axes(model, label, e.icm, "ICM", e.rm, diagnostics) || !curve->shape) {

@@ -8,15 +8,15 @@ namespace dynalin {
 
 namespace {
 
-constexpr double rounding_of_sums = 1e-10;  // what numbers that cancel may leave, of their sizes
+constexpr double part_that_cancels = 1e-10;  // what numbers that cancel may leave, of their sizes
 
 // a − factor · b
 StructuralEntry less(const StructuralEntry& a, double factor, const StructuralEntry& b) {
   if (b.is_zero()) return a;
   if (a.is_any || b.is_any) return StructuralEntry::any();
   const double difference = a.number - factor * b.number;
-  return {std::abs(difference) > rounding_of_sums * (std::abs(a.number) + std::abs(factor * b.number)) ? difference
-                                                                                                       : 0};
+  return {std::abs(difference) > part_that_cancels * (std::abs(a.number) + std::abs(factor * b.number)) ? difference
+                                                                                                        : 0};
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ inline bool on_one_body(const Model& model, MarkerId a, MarkerId b) {
   return A.statement == B.statement && A.id == B.id;
 }
 
+inline constexpr double rounding_of_places = 1e-12;  // of their sizes: nearer ones are one
+
 // Whether neither moves against the other.
 inline bool move_as_one(const Model& model, MarkerId a, MarkerId b) {
   const MarkerPlace &A = model.marker(a).place, &B = model.marker(b).place;
@@ -25,7 +27,6 @@ inline bool move_as_one(const Model& model, MarkerId a, MarkerId b) {
                               [](const Vector& v, const Vector& w) { return v.x == w.x && v.y == w.y && v.z == w.z; });
   };
   const Vector node_A = A.p_BM - A.shapes->offset, node_B = B.p_BM - B.shapes->offset;
-  constexpr double rounding_of_places = 1e-12;
   return A.shapes->first == B.shapes->first && same(A.shapes->translation, B.shapes->translation) &&
          same(A.shapes->rotation, B.shapes->rotation) &&
          norm(node_A - node_B) <= rounding_of_places * (norm(A.p_BM) + norm(B.p_BM) + norm(node_A));

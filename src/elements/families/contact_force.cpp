@@ -202,7 +202,7 @@ RelativeFrame<double> plain(const PairMotion& pair) { return at_instant(pair.rel
 
 std::vector<ContactBrink> brinks(const ContactForce& c, const Motion& motion, const MarkerPlace& place_I,
                                  const MarkerPlace& place_J, double length) {
-  constexpr double near = 1e-9;
+  constexpr double near_brink = 1e-9;
   const PairMotion pair = pair_motion(motion, place_I, place_J);
   const RelativeFrame<double> I = plain(pair), rate = at_instant(pair.relative, &Taylor::rate);
   std::vector<ContactBrink> found;
@@ -212,15 +212,15 @@ std::vector<ContactBrink> brinks(const ContactForce& c, const Motion& motion, co
       found.push_back({kind, pushes});
   };
   for_each_touch(c, I, [&](const Touch<double>& t) {
-    if (t.inside >= 0 && std::abs(t.gap) <= near * length) return add(Brink::touching, t.closed());
+    if (t.inside >= 0 && std::abs(t.gap) <= near_brink * length) return add(Brink::touching, t.closed());
     if (t.gap > 0) return;
-    if (std::abs(t.inside) <= near * length) add(Brink::end_of_plane, t.closed());
+    if (std::abs(t.inside) <= near_brink * length) add(Brink::end_of_plane, t.closed());
     if (!t.closed()) return;
-    if (t.seam <= near * length) add(Brink::end_of_face, true);
+    if (t.seam <= near_brink * length) add(Brink::end_of_face, true);
     if (c.normal_routine) return;  // its kinks are its own
     // The elastic part and that of the damper cancel.
     const double N = pressure(c.pressure, -t.gap, -dot(t.normal, velocity_at(t.point, I, rate)));
-    if (std::abs(N) <= near * pressure(c.pressure, -t.gap, 0.0)) add(Brink::letting_go, N > 0);
+    if (std::abs(N) <= near_brink * pressure(c.pressure, -t.gap, 0.0)) add(Brink::letting_go, N > 0);
   });
   return found;
 }

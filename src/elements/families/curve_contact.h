@@ -152,8 +152,8 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       apply_partials(pair, spread(pair, relative_wrench(at_I), Partials::yes), eq);
       const Matrix3 R = value(pair.axes_J);
       for (std::size_t a = 0; a < m; ++a) {
-        apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), true, PartialBy::position,
-                     coordinate(p, a), eq);
+        apply_column(pair, R * slope(at_I.force, 6 + a), R * slope(at_I.torque, 6 + a), Reaction::at_I,
+                     PartialBy::position, coordinate(p, a), eq);
         const Dual<seeds>& of_parameter = work.partial[6 + a];
         const auto g = [&](std::size_t k) { return -of_parameter.partial[k]; };
         add_partials(coordinate(p, a), pair, {g(0), g(1), g(2)}, {g(3), g(4), g(5)}, PartialBy::position, eq);

@@ -49,7 +49,7 @@ class CurveRiderSet final : public CurveContactSet<CurveRider, E> {
       const CurveRider& e = this->elements[k];
       const ElementLabel& label = this->labels[k];
       const Curve* written = model.get<Curve>(e.curve);
-      if (!check_pair(model, label, e.i, e.rm, {true, E::turns, true}, diagnostics) ||
+      if (!check_pair(model, label, e.i, e.rm, {.rotation_of_I = E::turns, .rotation_of_J = true}, diagnostics) ||
           !check_contact_marker(model, label, e.jfloat, "JFLOAT", e.rm, diagnostics) ||
           !check_start_axes(model, label, e.icm, "ICM", e.rm, diagnostics) || !written->shape) {
         continue;

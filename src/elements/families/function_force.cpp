@@ -37,7 +37,7 @@ void FunctionForceKernel::equations(const Motion& motion, Equations& eq) const {
     apply(pair, force, eq);
     if (!eq.wants(PartialBy::algebraic)) continue;
     const PairForce one = force_of(f, pair, 1.0, Partials::no);
-    apply_column(pair, one.force, one.torque, force.acts_on_J(), PartialBy::algebraic, f.magnitude.column(), eq);
+    apply_column(pair, one.force, one.torque, force.reaction, PartialBy::algebraic, f.magnitude.column(), eq);
   }
 }
 

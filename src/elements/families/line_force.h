@@ -145,7 +145,8 @@ class TwoMarkerForceSet final : public TypedSet<E> {
     constexpr bool turns = E::acts_on_rotation;
     for (std::size_t k = 0; k < this->elements.size(); ++k) {
       const E& e = this->elements[k];
-      if (!check_pair(model, this->labels[k], e.i, e.j, {true, turns, turns}, diagnostics)) continue;
+      if (!check_pair(model, this->labels[k], e.i, e.j, {.rotation_of_I = turns, .rotation_of_J = turns}, diagnostics))
+        continue;
       if (turns) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/families/common_frame.h"
+
 namespace dynalin {
 
 namespace {
@@ -103,7 +105,6 @@ bool begins_at_nothing(const Model& model, const LinearWrench& law) {
   const auto is_zero = [](double x) { return x == 0; };
   if (law.routine || !std::ranges::all_of(law.force, is_zero) || !std::ranges::all_of(law.length, is_zero))
     return false;
-  constexpr double rounding_of_places = 1e-12;
   const MarkerPlace& J = model.marker(law.j).place;
   return norm(drawn_frame(model, law.i, law.j).p) <=
          rounding_of_places * (norm(model.body(J.body).pose.r) + norm(J.p_BM));

@@ -110,7 +110,8 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const bool turns = elements[k].turns();
-      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, turns, turns}, diagnostics);
+      check_pair(model, labels[k], elements[k].i, elements[k].j, {.rotation_of_I = turns, .rotation_of_J = turns},
+                 diagnostics);
       if (!turns) check_moment_on_J(model, labels[k], elements[k], diagnostics);
       if (turns && !diagnostics.has_errors()) warn_of_undefined_angles(model, labels[k], elements[k], diagnostics);
     }

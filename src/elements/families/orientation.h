@@ -14,8 +14,8 @@ struct WrittenOrientation {
   std::optional<Vector> angles;   // REULER [rad]
   std::optional<Vector> z_point;  // a point on +z
   std::optional<Vector> x_point;  // a point in the x-z plane, on the side of +x
-  bool x_exact = false;           // USEXP: x_point lies on +x, z_point fixes the plane
   std::string_view angles_name, z_name, x_name;
+  bool x_exact = false;  // USEXP: x_point lies on +x, z_point fixes the plane
 };
 
 // The axes by columns, in the frame in which origin and points are given. Only a z point: x is the projection of the

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/degree.h"
 #include "elements/families/weighed_mass.h"
 
 namespace dynalin {
@@ -16,7 +17,7 @@ namespace {
 // A part of the mass matrix below this many roundings is what it cannot tell from zero.
 constexpr double mass_units = 4;
 
-constexpr double fast_turning = 0.1, far_bent = 0.1, radians = std::numbers::pi / 180, far_turned = 10 * radians;
+constexpr double fast_turning = 0.1, far_bent = 0.1, far_turned = 10 * degree;
 
 // Of all nodes, three rows each.
 double farthest_node(const Eigen::VectorXd& by_nodes) {
@@ -130,7 +131,7 @@ void ShapedBody::add_cautions(const Motion& motion, Diagnostics& out) const {
     out.warning("far-bent-body", label().at,
                 fmt::format("{} is bent by {:.3g} of its length and turned within by {:.3g} degrees: linear modes hold "
                             "for a tenth and ten degrees",
-                            label().full_text(), length > 0 ? bent / length : 0.0, turned / radians));
+                            label().full_text(), length > 0 ? bent / length : 0.0, turned / degree));
   }
 }
 

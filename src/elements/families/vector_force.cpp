@@ -64,7 +64,7 @@ void VectorForceKernel::equations(const Motion& motion, Equations& eq) const {
     apply(w.pair, w.force, eq);
     if (!eq.wants_partials()) continue;
     for (const MarkerWrench::Scalar& s : w.scalars) {
-      apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
+      apply_column(w.pair, s.force, s.torque, Reaction::at_I, s.family, s.column, eq);
     }
     for (const MarkerWrench::Turn& t : w.turns) apply_turn(w.pair, *t.axes, t.force, t.torque, eq);
   }

@@ -199,7 +199,7 @@ class CableSet final : public TypedSet<Cable> {
       const std::vector<MarkerId>& m = elements[k].markers;
       bool joins = false;
       for (std::size_t n = 0; n + 1 < m.size(); ++n) {
-        check_pair(model, labels[k], m[n + 1], m[n], {false, false, false}, diagnostics);
+        check_pair(model, labels[k], m[n + 1], m[n], {.different_bodies = false}, diagnostics);
         joins = joins || model.marker(m[n + 1]).place.body != model.marker(m[n]).place.body;
       }
       if (joins || m.size() < 2) continue;

@@ -149,7 +149,8 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
       ContactForce& f = forces_[k];
       if (sides_[k][0].empty() || sides_[k][1].empty()) continue;  // reported
       if (!place_sides(model, labels[k], sides_[k], f, diagnostics)) continue;
-      check_pair(model, labels[k], f.i, f.j, {true, turns(model, k, 0), turns(model, k, 1)}, diagnostics);
+      check_pair(model, labels[k], f.i, f.j, {.rotation_of_I = turns(model, k, 0), .rotation_of_J = turns(model, k, 1)},
+                 diagnostics);
       if (elements[k].poisson) finish_poisson(model, k, diagnostics);
     }
   }

@@ -104,7 +104,7 @@ void JointFrictionKernel::equations(const Motion& motion, Equations& eq) const {
     }
     apply(w.pair, w.force, eq);
     for (const MarkerWrench::Scalar& s : w.scalars)
-      apply_column(w.pair, s.force, s.torque, true, s.family, s.column, eq);
+      apply_column(w.pair, s.force, s.torque, Reaction::at_I, s.family, s.column, eq);
   }
 }
 

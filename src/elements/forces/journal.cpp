@@ -195,7 +195,8 @@ class JournalSet final : public TypedSet<Journal> {
   }
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k)
-      check_pair(model, labels[k], elements[k].i, elements[k].j, {true, true, true}, diagnostics);
+      check_pair(model, labels[k], elements[k].i, elements[k].j, {.rotation_of_I = true, .rotation_of_J = true},
+                 diagnostics);
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {
     return std::make_unique<JournalKernel>(elements, labels, layout);

@@ -111,7 +111,7 @@ class ModalForceKernel final : public Kernel {
         eq.add_residual(l.modes + static_cast<std::int32_t>(m), -now.scale * now.of_modes[m]);
       if (l.has_scale) {
         const std::int32_t scale = l.unknowns.front().column();
-        apply_column(pair, now.force, now.torque, l.has_reaction, PartialBy::algebraic, scale, eq);
+        apply_column(pair, now.force, now.torque, load.reaction, PartialBy::algebraic, scale, eq);
         for (std::size_t m = 0; m < now.of_modes.size(); ++m)
           eq.add(PartialBy::algebraic, l.modes + static_cast<std::int32_t>(m), scale, -now.of_modes[m]);
       }
@@ -121,7 +121,7 @@ class ModalForceKernel final : public Kernel {
           return;
         }
         const Vector e = now.scale * now.axes[c % 3];
-        apply_column(pair, c < 3 ? e : Vector{}, c < 3 ? Vector{} : e, l.has_reaction, PartialBy::algebraic, unknown,
+        apply_column(pair, c < 3 ? e : Vector{}, c < 3 ? Vector{} : e, load.reaction, PartialBy::algebraic, unknown,
                      eq);
       });
     }

@@ -104,7 +104,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
         apply(at.pairs[k], spread(at.pairs[k], total(p, k, motion, at), eq.wanted_partials()), eq);
         if (!eq.wants_partials()) continue;
         for_each_component(p, k, at.pairs[k], [&](std::int32_t column, const Vector& force, const Vector& torque) {
-          apply_column(at.pairs[k], force, torque, true, PartialBy::algebraic, column, eq);
+          apply_column(at.pairs[k], force, torque, Reaction::at_I, PartialBy::algebraic, column, eq);
         });
         if (!p.components.empty()) continue;
         for (std::size_t l = 0; l < n; ++l)
@@ -253,7 +253,8 @@ class NforceSet final : public TypedSet<Nforce> {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Nforce& n = elements[k];
       Law law{n.markers, n.j, 6 * n.markers.size(), {}, {}, {}, {}, {}};
-      for (const MarkerId i : n.markers) check_pair(model, labels[k], i, n.j, {true, true, true}, diagnostics);
+      for (const MarkerId i : n.markers)
+        check_pair(model, labels[k], i, n.j, {.rotation_of_I = true, .rotation_of_J = true}, diagnostics);
       const auto take = [&](MatrixRef ref, std::string_view word, std::size_t columns) {
         if (!ref.valid()) return std::vector<double>();
         const Matrix& m = *model.get<Matrix>(ref);

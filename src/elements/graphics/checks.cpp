@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/revolution.h"
+
 namespace dynalin::drawing {
 
 namespace {
@@ -25,7 +27,6 @@ void demand_not_zero(ElementReader& reader, std::string_view name, double value)
 }
 
 void demand_angle(ElementReader& reader, double angle) {
-  constexpr double rounding_of_turn = 1e-9;
   demand_not_zero(reader, "RANGLE", angle);
   if (std::abs(angle) > 2 * std::numbers::pi * (1 + rounding_of_turn))
     out_of_range(reader, "RANGLE", angle, "be at most one turn, 360D or 2π");
