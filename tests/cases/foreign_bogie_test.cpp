@@ -5,7 +5,7 @@
 #include "cases/foreign.h"
 #include "cases/newton_euler.h"
 
-namespace dynalin::cases::foreign_bogie_test {
+namespace dynalin::cases::newton_euler::foreign_bogie_test {
 namespace {
 
 using Frame = NewtonEuler::Point;
@@ -22,7 +22,6 @@ class Bogie : public Foreign {
 
   static NewtonEuler model(Real speed, bool rubbing) {
     NewtonEuler n;
-    n.inputs = 1;
     n.scale = VecX::Constant(coordinates, 0.2L);
     n.bodies = {{3.2L, products(2.1L, 3.4L, 4.9L, 0.08L, -0.11L, 0.05L)},
                 {1.5L, products(0.9L, 0.12L, 0.9L)},
@@ -125,4 +124,4 @@ TEST_F(Bogie, bogie) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases::foreign_bogie_test
+}  // namespace dynalin::cases::newton_euler::foreign_bogie_test

@@ -6,7 +6,7 @@
 #include "cases/foreign.h"
 #include "cases/newton_euler.h"
 
-namespace dynalin::cases::foreign_valve_train_test {
+namespace dynalin::cases::newton_euler::foreign_valve_train_test {
 namespace {
 
 constexpr Real gravity = 386.0886L, consistency = 9.80665L / 0.0254L;
@@ -145,7 +145,6 @@ class ValveTrain : public Foreign {
   NewtonEuler free_shaft(bool fixed = false) const {
     NewtonEuler n;
     n.consistency = consistency;
-    n.inputs = 1;
     n.bodies = {{3.2L, products(2.5L, 2.6L, 1.85L) - about_centre()},
                 {0.25L, products(1, 1, 1)},
                 {0.4L, products(1, 1, 1)},
@@ -271,4 +270,4 @@ TEST_F(ValveTrain, valve_train) {
 }
 
 }  // namespace
-}  // namespace dynalin::cases::foreign_valve_train_test
+}  // namespace dynalin::cases::newton_euler::foreign_valve_train_test

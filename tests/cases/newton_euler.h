@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace dynalin::cases {
+namespace dynalin::cases::newton_euler {
 
 using Real = long double;
 using Vec3 = Eigen::Matrix<Real, 3, 1>;
@@ -96,7 +96,7 @@ class NewtonEuler {
   Real consistency = 1;  // force times this is mass times acceleration
   VecX scale;            // of what each coordinate may be moved by to difference: a hundredth of it
   Real time_scale = 1;
-  Eigen::Index states = 0, inputs = 0;
+  Eigen::Index states = 0;
   std::vector<Body> bodies;
   std::function<std::vector<Pose>(const VecX& q, Real time)> poses;
   std::function<void(const State&, Loads&)> loads;
@@ -192,17 +192,6 @@ class NewtonEuler {
     }
     return x;
   }
-  // Classical Runge-Kutta.
-  VecX later(VecX x, const VecX& u, Real from, Real to, int steps) const {
-    const Real h = (to - from) / steps;
-    for (int k = 0; k < steps; ++k) {
-      const Real t = from + k * h;
-      const VecX a = rates(x, u, t), b = rates(x + h / 2 * a, u, t + h / 2), c = rates(x + h / 2 * b, u, t + h / 2),
-                 d = rates(x + h * c, u, t + h);
-      x += h / 6 * (a + 2 * b + 2 * c + d);
-    }
-    return x;
-  }
 
  private:
   static constexpr Real step = 0.01L;
@@ -269,4 +258,4 @@ inline std::vector<std::complex<double>> spectrum(MatX A) {
   return values;
 }
 
-}  // namespace dynalin::cases
+}  // namespace dynalin::cases::newton_euler
