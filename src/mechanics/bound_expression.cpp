@@ -76,25 +76,25 @@ Taylor BoundExpression::atom_along_motion(const BoundAtom& a, const Motion& moti
 }
 
 double BoundExpression::value(const Motion& motion, ExpressionScratch& scratch) const {
-  scratch.atoms.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) scratch.atoms[k] = atom_value(atoms_[k], motion);
+  scratch.atoms.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) scratch.atoms[k] = atom_value(bound_atoms()[k], motion);
   return expression_.evaluate<double>(scratch.atoms, scratch.plain);
 }
 
 std::span<const double> BoundExpression::partials(const Motion& motion, ExpressionScratch& scratch) const {
-  scratch.atoms.resize(atoms_.size());
-  scratch.partials.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) scratch.atoms[k] = atom_value(atoms_[k], motion);
+  scratch.atoms.resize(bound_atoms().size());
+  scratch.partials.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) scratch.atoms[k] = atom_value(bound_atoms()[k], motion);
   expression_.evaluate<double>(scratch.atoms, std::span(scratch.partials), scratch.plain);
   return scratch.partials;
 }
 
 void BoundExpression::fill_along_motion(const Motion& motion, std::span<const Taylor> given,
                                         std::vector<Taylor>& atoms) const {
-  atoms.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const bool from_others = !given.empty() && atoms_[k].kind == BoundAtom::Kind::channel;
-    atoms[k] = from_others ? given[k] : atom_along_motion(atoms_[k], motion);
+  atoms.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const bool from_others = !given.empty() && bound_atoms()[k].kind == BoundAtom::Kind::channel;
+    atoms[k] = from_others ? given[k] : atom_along_motion(bound_atoms()[k], motion);
   }
 }
 
@@ -115,24 +115,25 @@ void BoundExpression::add(const Motion& motion, Equations& eq, std::int32_t row,
     eq.add_residual(row, factor * value(motion, scratch));
     return;
   }
-  scratch.atoms.resize(atoms_.size());
-  scratch.partials.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) scratch.atoms[k] = atom_value(atoms_[k], motion);
+  scratch.atoms.resize(bound_atoms().size());
+  scratch.partials.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) scratch.atoms[k] = atom_value(bound_atoms()[k], motion);
   const double e = expression_.evaluate<double>(scratch.atoms, std::span(scratch.partials), scratch.plain);
   eq.add_residual(row, factor * e);
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
     // A size that is zero grows whichever way things move: of no direction, and so its gradient counts as zero.
-    const bool flat = is_size(atoms_[k]) && scratch.atoms[k] == 0.0;
+    const bool flat = is_size(bound_atoms()[k]) && scratch.atoms[k] == 0.0;
     const double partial = flat ? 0.0 : factor * scratch.partials[k];
     eq.begin_term(partial);
-    add_atom(atoms_[k], motion, {eq, row, velocity_family}, partial, flat || partial != 0.0 || passes_over(k, scratch));
+    add_atom(bound_atoms()[k], motion, {eq, row, velocity_family}, partial,
+             flat || partial != 0.0 || passes_over(k, scratch));
   }
   eq.end_terms();
 }
 
 // A kink vanishes with its factor; a jump does only where nothing reads it.
 bool BoundExpression::passes_over(std::size_t atom, const ExpressionScratch& scratch) const {
-  const BoundAtom& a = atoms_[atom];
+  const BoundAtom& a = bound_atoms()[atom];
   const bool jumps = a.kind == BoundAtom::Kind::measure && may_jump(a.measure);
   return !jumps || !expression_.reaches(atom, scratch.plain);
 }
@@ -199,13 +200,13 @@ template <class Factor>
 Taylor BoundExpression::add_to_row(const Motion& motion, const IntoConstraint& into, const Factor& factor,
                                    std::span<const Taylor> given) const {
   ExpressionScratch& scratch = into.rows.scratch;
-  scratch.taylor_partials.resize(atoms_.size());
+  scratch.taylor_partials.resize(bound_atoms().size());
   fill_along_motion(motion, given, scratch.taylor_atoms);
   const Taylor e =
       expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    if (atoms_[k].kind == BoundAtom::Kind::measure) {
-      add_measure_to_row(atoms_[k], motion, into, factor * scratch.taylor_partials[k]);
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    if (bound_atoms()[k].kind == BoundAtom::Kind::measure) {
+      add_measure_to_row(bound_atoms()[k], motion, into, factor * scratch.taylor_partials[k]);
     }
   }
   return factor * e;
@@ -234,15 +235,15 @@ bool jumps_by_a_turn(Measure m) {
 }  // namespace
 
 bool BoundExpression::has_switches() const {
-  return expression_.has_switches() || std::any_of(atoms_.begin(), atoms_.end(), [](const BoundAtom& a) {
+  return expression_.has_switches() || std::any_of(bound_atoms().begin(), bound_atoms().end(), [](const BoundAtom& a) {
            return a.kind == BoundAtom::Kind::measure && jumps_by_a_turn(a.measure);
          });
 }
 
 void BoundExpression::switches(const Motion& motion, ExpressionScratch& scratch, SwitchList& out) const {
-  scratch.atoms.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const BoundAtom& a = atoms_[k];
+  scratch.atoms.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const BoundAtom& a = bound_atoms()[k];
     scratch.atoms[k] = atom_value(a, motion);
     const bool jumps = a.kind == BoundAtom::Kind::measure && jumps_by_a_turn(a.measure);
     if (jumps) out.add(std::sin(scratch.atoms[k]), std::cos(scratch.atoms[k]) < 0.0);
@@ -253,17 +254,17 @@ void BoundExpression::switches(const Motion& motion, ExpressionScratch& scratch,
 void BoundExpression::look_ahead(const Motion& from, const Motion& to, ExpressionScratch& scratch,
                                  StepReach& reach) const {
   if (!has_tables()) return;
-  scratch.atoms.resize(atoms_.size());
-  std::vector<double> ahead(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    scratch.atoms[k] = atom_value(atoms_[k], from);
-    ahead[k] = atom_value(atoms_[k], to);
+  scratch.atoms.resize(bound_atoms().size());
+  std::vector<double> ahead(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    scratch.atoms[k] = atom_value(bound_atoms()[k], from);
+    ahead[k] = atom_value(bound_atoms()[k], to);
   }
   expression_.look_ahead(scratch.atoms, ahead, scratch.plain, reach);
 }
 
 bool BoundExpression::reads_states_only() const {
-  return std::all_of(atoms_.begin(), atoms_.end(), [](const BoundAtom& a) {
+  return std::all_of(bound_atoms().begin(), bound_atoms().end(), [](const BoundAtom& a) {
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::channel) return a.channel.kind == Channel::Kind::state;
     return a.kind != Kind::force && (a.kind != Kind::measure || a.order < 2);

@@ -26,7 +26,7 @@ class BoundExpression {
 
   // Kinematic order: 0 displacements, 1 velocities, 2 accelerations or reactions.
   int order() const { return order_; }
-  bool is_constant() const { return atoms_.empty(); }
+  bool is_constant() const { return bound_atoms().empty(); }
   // The first atom that reads how a marker moves along a curve, null if none does.
   const Atom* atom_on_curve() const;
 
@@ -107,12 +107,13 @@ class BoundExpression {
     Measure measure = Measure::DX;
     std::int8_t order = 0;
     std::array<MarkerFrame, 4> places;               // i, j, k, l
-    std::uint32_t first_block = 0, block_count = 0;  // what they depend on, in atom_blocks_
+    std::uint32_t first_block = 0, block_count = 0;  // what they depend on, in atom_blocks
     std::int32_t memory = -1;                        // total angle of a measure that counts turns
     std::int32_t kept = -1;                          // where the memory holds what is remembered
     std::shared_ptr<const Force> force;              // of the kind force alone: most atoms are none
   };
 
+  void bind_atoms(Binder&, Binding);
   BoundAtom bind(const Atom&, Binder&, Binding);
   void bind_measure(BoundAtom&, const Atom&, Binder&);
   void bind_data(BoundAtom&, const Atom&, Binder&, Binding);
@@ -120,8 +121,21 @@ class BoundExpression {
   static Force force_of_element(const Atom&, Binder&);
   static Force force_on_marker(const Atom&, Binder&);
   void note_blocks(BoundAtom&, const MarkerFrame&, const Layout&, bool poses_too);
+  // What atoms are tied to: the same of all copies, as System keeps one more of each expression with kinks.
+  struct Bound {
+    std::vector<CoordinateBlock> all_blocks;   // all that the measures depend on
+    std::vector<CoordinateBlock> atom_blocks;  // the same atom by atom
+    std::vector<BoundAtom> atoms;
+  };
+  template <class T>
+  std::span<const T> list(std::vector<T> Bound::*which) const {
+    return bound_ ? std::span<const T>((*bound_).*which) : std::span<const T>();
+  }
+  std::span<const CoordinateBlock> all_blocks() const { return list(&Bound::all_blocks); }
+  std::span<const CoordinateBlock> atom_blocks() const { return list(&Bound::atom_blocks); }
+  std::span<const BoundAtom> bound_atoms() const { return list(&Bound::atoms); }
   std::span<const CoordinateBlock> blocks(const BoundAtom& a) const {
-    return std::span(atom_blocks_).subspan(a.first_block, a.block_count);
+    return atom_blocks().subspan(a.first_block, a.block_count);
   }
   double atom_value(const BoundAtom&, const Motion&) const;
   double force_value(const BoundAtom&, const Motion&) const;
@@ -161,9 +175,7 @@ class BoundExpression {
   std::string undefined_in_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 
   Expression expression_;
-  std::vector<CoordinateBlock> blocks_;       // all that the measures depend on
-  std::vector<CoordinateBlock> atom_blocks_;  // the same atom by atom
-  std::vector<BoundAtom> atoms_;
+  std::shared_ptr<Bound> bound_;  // constant once it is made, null without atoms
   int order_ = 0;
 };
 

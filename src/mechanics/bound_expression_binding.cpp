@@ -110,13 +110,20 @@ MarkerFrame find_marker(Binder& binder, const Atom& atom, std::int64_t id, Axes 
 
 BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding binding)
     : expression_(expression.with_curves([&](SplineUse& use) { binder.attach(use); })) {
-  std::unordered_set<std::int32_t> seen;  // of blocks_: a sum may run over all bodies of a model
-  atoms_.reserve(expression_.atoms().size());
+  if (!expression_.is_constant()) bind_atoms(binder, binding);
+  // What is bound for rates or conditions is bound for the equations as well.
+  if (binding == Binding::equations && has_switches()) binder.note_switches(*this);
+}
+
+void BoundExpression::bind_atoms(Binder& binder, Binding binding) {
+  std::unordered_set<std::int32_t> seen;  // of all_blocks: a sum may run over all bodies of a model
+  bound_ = std::make_shared<Bound>();
+  bound_->atoms.reserve(expression_.atoms().size());
   for (const Atom& atom : expression_.atoms()) {
-    atoms_.push_back(bind(atom, binder, binding));
-    const BoundAtom& a = atoms_.back();
+    bound_->atoms.push_back(bind(atom, binder, binding));
+    const BoundAtom& a = bound_->atoms.back();
     for (const CoordinateBlock& b : blocks(a)) {
-      if (seen.insert(b.column).second) blocks_.push_back(b);
+      if (seen.insert(b.column).second) bound_->all_blocks.push_back(b);
     }
     using Kind = BoundAtom::Kind;
     if (a.kind == Kind::measure) order_ = std::max(order_, static_cast<int>(a.order));
@@ -131,12 +138,12 @@ BoundExpression::BoundExpression(Expression expression, Binder& binder, Binding 
                            "known",
                        "a DELAY needs none as a Padé approximant, run with --pade");
       } else if (a.kind == Kind::channel) {
-        atoms_.back().rate = binder.rate_of(a.channel);
+        bound_->atoms.back().rate = binder.rate_of(a.channel);
       }
     }
   }
-  // What is bound for rates or conditions is bound for the equations as well.
-  if (binding == Binding::equations && has_switches()) binder.note_switches(*this);
+  bound_->all_blocks.shrink_to_fit();
+  bound_->atom_blocks.shrink_to_fit();
 }
 
 void BoundExpression::note_blocks(BoundAtom& a, const MarkerFrame& marker, const Layout& layout, bool poses_too) {
@@ -144,7 +151,7 @@ void BoundExpression::note_blocks(BoundAtom& a, const MarkerFrame& marker, const
     const std::span<const CoordinateBlock> known = blocks(a);
     if (!poses_too && b.kind != CoordinateBlock::Kind::curve_parameter) return;
     if (std::find(known.begin(), known.end(), b) != known.end()) return;
-    atom_blocks_.push_back(b);
+    bound_->atom_blocks.push_back(b);
     ++a.block_count;
   });
 }
@@ -156,8 +163,8 @@ void BoundExpression::bind_force(BoundAtom& a, Force force, const Signals& signa
 }
 
 const Atom* BoundExpression::atom_on_curve() const {
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    for (const CoordinateBlock& b : blocks(atoms_[k]))
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    for (const CoordinateBlock& b : blocks(bound_atoms()[k]))
       if (b.kind == CoordinateBlock::Kind::curve_parameter) return &expression_.atoms()[k];
   }
   return nullptr;
@@ -165,7 +172,7 @@ const Atom* BoundExpression::atom_on_curve() const {
 
 BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binder, Binding binding) {
   BoundAtom a{};
-  a.first_block = static_cast<std::uint32_t>(atom_blocks_.size());
+  a.first_block = static_cast<std::uint32_t>(atom_blocks().size());
   switch (atom.function->family) {
     case AtomFamily::time:
       a.kind = BoundAtom::Kind::time;

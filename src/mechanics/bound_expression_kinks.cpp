@@ -62,25 +62,25 @@ void BoundExpression::find_kink(const Motion& motion, double length, const Eleme
                                 UndefinedValues& found) const {
   using Kind = BoundAtom::Kind;
   std::vector<double> values;
-  for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
+  for (const BoundAtom& a : bound_atoms()) values.push_back(atom_value(a, motion));
   ExpressionScratch scratch;
-  scratch.partials.resize(atoms_.size());
+  scratch.partials.resize(bound_atoms().size());
   const auto add = [&](const std::string& what) {
     constexpr std::size_t told = 100;  // bytes
     found.add(Kink{&of, fmt::format("{} of {} {}", on_one_line(expression_.at(), told), of.full_text(), what)});
   };
   // The size of a vector that is zero grows whichever way it moves.
   expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
     const double slope = scratch.partials[k];
-    if (!is_size(atoms_[k]) || values[k] != 0.0 || slope == 0.0) continue;
+    if (!is_size(bound_atoms()[k]) || values[k] != 0.0 || slope == 0.0) continue;
     return add(fmt::format("has a kink here: {} is 0 and grows whichever way it moves, and its slope is taken as 0",
                            expression_.atoms()[k].at.text()));
   }
   // Those of routines are their own.
   if (!expression_.has_switches() || !expression_.program().routines.empty()) return;
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const BoundAtom& a = atoms_[k];
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const BoundAtom& a = bound_atoms()[k];
     if (a.kind != Kind::measure && a.kind != Kind::channel && a.kind != Kind::force) continue;
     const bool displacement = a.kind == Kind::measure && a.order == 0;
     const double usual = !displacement ? 0.0 : a.measure <= Measure::DM ? length : 1.0;

@@ -10,7 +10,7 @@ namespace dynalin {
 std::string BoundExpression::undefined_in_value(const Motion& motion, const std::vector<double>& values) const {
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k])) continue;
-    const BoundAtom& a = atoms_[k];
+    const BoundAtom& a = bound_atoms()[k];
     const bool straight =
         (a.force && a.force->axes_marker.straight(motion)) ||
         std::any_of(a.places.begin(), a.places.end(), [&](const auto& p) { return p.straight(motion); });
@@ -43,10 +43,10 @@ std::string BoundExpression::undefined_in_gradient(const Motion& motion, const s
   if (const auto found = expression_.find_undefined<double>(values, UndefinedSearch::value_and_partials))
     return found->reason;
   ExpressionScratch scratch;
-  scratch.partials.resize(atoms_.size());
+  scratch.partials.resize(bound_atoms().size());
   expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const BoundAtom& a = atoms_[k];
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const BoundAtom& a = bound_atoms()[k];
     const bool vanishes = scratch.partials[k] == 0.0 && passes_over(k, scratch);
     if (vanishes && (derivatives == Derivatives::first || !expression_.reaches(k, scratch.plain))) continue;
     const std::string text(expression_.atoms()[k].at.text());
@@ -73,7 +73,7 @@ void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& o
 
 BoundExpression::Lack BoundExpression::undefined(const Motion& motion, Derivatives derivatives) const {
   std::vector<double> values;
-  for (const BoundAtom& a : atoms_) values.push_back(atom_value(a, motion));
+  for (const BoundAtom& a : bound_atoms()) values.push_back(atom_value(a, motion));
   if (std::string reason = undefined_in_value(motion, values); !reason.empty()) return {std::move(reason), true};
   return {undefined_in_gradient(motion, values, derivatives), false};
 }

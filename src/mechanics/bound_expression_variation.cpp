@@ -184,23 +184,23 @@ Frame<Nested> nested_frame(const Motion& motion, const MarkerFrame& marker, cons
 void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq, double lambda,
                                             RowLevel row_level) const {
   ExpressionScratch& scratch = eq.scratch;
-  const std::size_t n = atoms_.size();
+  const std::size_t n = bound_atoms().size();
   scratch.taylor_atoms.resize(n);
   scratch.taylor_partials.resize(n);
   // Gradients of every atom by its blocks: level 0 in 0–5, level 1 in 6–11.
-  scratch.gradients.resize(atom_blocks_.size());
+  scratch.gradients.resize(atom_blocks().size());
   for (std::size_t k = 0; k < n; ++k) {
-    const BoundAtom& a = atoms_[k];
+    const BoundAtom& a = bound_atoms()[k];
     scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
     if (a.kind != BoundAtom::Kind::measure) continue;
     for (std::size_t b = a.first_block; b < a.first_block + a.block_count; ++b) {
       auto& gradient = scratch.gradients[b];
       if (a.order == 0) {
-        const auto by_position = path::varied_displacement(a.measure, a.places, motion, atom_blocks_[b]).partial;
+        const auto by_position = path::varied_displacement(a.measure, a.places, motion, atom_blocks()[b]).partial;
         gradient.fill(0.0);
         std::copy(by_position.begin(), by_position.end(), gradient.begin());
       } else {
-        gradient = path::varied_measure<12>(a.measure, a.places, motion, atom_blocks_[b]).value.partial;
+        gradient = path::varied_measure<12>(a.measure, a.places, motion, atom_blocks()[b]).value.partial;
       }
     }
   }
@@ -210,13 +210,13 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
   for (std::size_t outer_level = 0; outer_level <= inner_level; ++outer_level) {
     const PartialBy family = outer_level == 0 ? PartialBy::position : PartialBy::velocity;
     if (!eq.wants(family)) continue;
-    for (const CoordinateBlock& columns : blocks_) {
+    for (const CoordinateBlock& columns : all_blocks()) {
       for (std::int32_t j = 0; j < columns.count; ++j) {
         for (std::size_t l = 0; l < n; ++l) {
           scratch.taylor_atoms[l].rate = gradient(scratch, l, columns, 6 * outer_level + static_cast<std::size_t>(j));
         }
         expression_.evaluate<Taylor>(scratch.taylor_atoms, std::span(scratch.taylor_partials), scratch.taylor);
-        for (const CoordinateBlock& forces : blocks_) {
+        for (const CoordinateBlock& forces : all_blocks()) {
           for (std::int32_t i = 0; i < forces.count; ++i) {
             double sum = 0;
             for (std::size_t k = 0; k < n; ++k) {
@@ -230,9 +230,9 @@ void BoundExpression::add_reaction_partials(const Motion& motion, Equations& eq,
       }
     }
     // The variation of the gradients themselves, with the slopes e_k of the last pass.
-    if (blocks_.empty()) continue;
+    if (all_blocks().empty()) continue;
     for (std::size_t k = 0; k < n; ++k) {
-      const BoundAtom& a = atoms_[k];
+      const BoundAtom& a = bound_atoms()[k];
       if (a.kind != BoundAtom::Kind::measure || (a.order == 0 && inner_level == 1)) continue;
       const double slope = scratch.taylor_partials[k].value;
       for (const CoordinateBlock& forces : blocks(a)) {
@@ -275,10 +275,10 @@ void BoundExpression::add_measure_rate(const BoundAtom& a, const Motion& motion,
 
 void BoundExpression::fill_rates(const Motion& motion, ExpressionScratch& scratch) const {
   using Kind = BoundAtom::Kind;
-  scratch.taylor_atoms.resize(atoms_.size());
-  scratch.taylor_partials.resize(atoms_.size());
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const BoundAtom& a = atoms_[k];
+  scratch.taylor_atoms.resize(bound_atoms().size());
+  scratch.taylor_partials.resize(bound_atoms().size());
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const BoundAtom& a = bound_atoms()[k];
     Taylor& x = scratch.taylor_atoms[k] = Taylor(atom_value(a, motion), 0.0, 0.0);
     const bool rests = is_equilibrium(motion.mode);
     if (a.kind == Kind::time) x.rate = rests ? 0.0 : 1.0;
@@ -306,8 +306,8 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
   eq.add_residual(row, factor * e.rate);
   if (!eq.wants_partials()) return;
   const IntoEquation into{eq, row, velocity_family};
-  for (std::size_t k = 0; k < atoms_.size(); ++k) {
-    const BoundAtom& a = atoms_[k];
+  for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
+    const BoundAtom& a = bound_atoms()[k];
     const double by_value = factor * scratch.taylor_partials[k].rate,
                  by_rate = factor * scratch.taylor_partials[k].value;
     if (a.kind == Kind::measure) {
@@ -334,9 +334,9 @@ void BoundExpression::add_rate(const Motion& motion, Equations& eq, std::int32_t
 
 double BoundExpression::gradient(const ExpressionScratch& scratch, std::size_t atom, const CoordinateBlock& block,
                                  std::size_t seed) const {
-  const BoundAtom& a = atoms_[atom];
+  const BoundAtom& a = bound_atoms()[atom];
   for (std::size_t b = a.first_block; b < a.first_block + a.block_count; ++b) {
-    if (atom_blocks_[b] == block) return scratch.gradients[b][seed];
+    if (atom_blocks()[b] == block) return scratch.gradients[b][seed];
   }
   return 0;
 }
