@@ -61,7 +61,7 @@ class Dynamics {
     if (!hand_out(point_, Instant::output, at_start.text))
       return AdvancedPoint{std::move(point_), SimulationEnd::stopped};
     if (at_start.ends()) return AdvancedPoint{std::move(point_), end_of(at_start)};
-    if (at_start.output_step) change_outputs(*at_start.output_step);
+    if (auto changed = change_outputs(at_start); !changed) return tl::unexpected(changed.error());
     if (MotionUnknowns(system_).size() == 0) return pass_time();
     if (auto begun = begin(at_start.step_size); !begun) return tl::unexpected(begun.error());
     while (true) {
@@ -306,7 +306,7 @@ class Dynamics {
     if ((output || !action.text.empty()) && !hand_out(point_, instant_of(output), action.text))
       action.returns = stopped_ = true;
     if (action.ends()) return action;
-    if (action.output_step) change_outputs(*action.output_step);
+    if (auto changed = change_outputs(action); !changed) return tl::unexpected(changed.error());
     if (action.restart) {
       density_.note_restart(
           statistics_.steps, point_.time, [&] { return system_.kinks(system_.motion(point_)); }, findings_.warnings);
@@ -331,11 +331,14 @@ class Dynamics {
   }
 
   // From the point on, to the same end.
-  void change_outputs(double step) {
-    if (point_.time >= times_.end()) return;
-    if (bounds_.steps.largest == times_.step()) bounds_.steps.largest = step;
-    times_ = OutputTimes(point_.time, times_.end(), step);
+  Result<void> change_outputs(const EventAction& action) {
+    if (!action.output_step || point_.time >= times_.end()) return {};
+    const OutputTimes changed(point_.time, times_.end(), *action.output_step);
+    if (auto refusal = changed.refusal()) return tl::unexpected(std::move(*refusal));
+    if (bounds_.steps.largest == times_.step()) bounds_.steps.largest = changed.step();
+    times_ = changed;
     next_ = 1;
+    return {};
   }
 
   void limit_steps() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace dynalin {
 
@@ -29,7 +30,11 @@ IntegrationBounds::IntegrationBounds(const IntegratorSettings& settings, const O
   tolerance.duration = times.end() - times.start();
   tolerance.passed_over = std::clamp(error, least_passed_over, most_passed_over);
   steps.loosest = std::max(1.0, largest_part_of_error * error / tolerance.relative);
-  steps.first = settings.first_step;
+  // As short as it may be stated, time has to go on by it.
+  constexpr double told_apart = 1e3 * std::numeric_limits<double>::epsilon();
+  if (settings.first_step) {
+    steps.first = std::max(*settings.first_step, told_apart * std::max(std::abs(times.start()), std::abs(times.end())));
+  }
   steps.least = settings.least_step;
   steps.largest_order = static_cast<int>(std::clamp<std::int64_t>(settings.largest_order.value_or(5), 1, 5));
   steps.iterations =

@@ -18,6 +18,17 @@ TEST(IntegrationBounds, steps_do_not_pass_over_an_interval_of_output_unless_that
   EXPECT_EQ(IntegrationBounds(settings, times).steps.largest, 2);
 }
 
+TEST(IntegrationBounds, a_first_step_is_one_by_which_time_goes_on) {
+  IntegratorSettings settings;
+  EXPECT_EQ(IntegrationBounds(settings, times).steps.first, std::nullopt);
+  settings.first_step = 1e-9;
+  EXPECT_EQ(IntegrationBounds(settings, times).steps.first, 1e-9);
+  settings.first_step = 1e-300;
+  const double first = IntegrationBounds(settings, times).steps.first.value();
+  EXPECT_LT(first, 1e-12);
+  EXPECT_GT(times.end() - first, times.end() - 2 * first);
+}
+
 TEST(IntegrationBounds, errors_of_steps_follow_what_those_of_the_run_may_be) {
   IntegratorSettings settings;
   EXPECT_EQ(IntegrationBounds(settings, times).error, 1e-3);

@@ -1,5 +1,7 @@
 #include "simulation/output_times.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,9 +23,20 @@ OutputTimes OutputTimes::of_count(double start, double end, std::int64_t steps) 
   return times;
 }
 
-bool OutputTimes::are_distinct() const {
+std::optional<Failure> OutputTimes::refusal() const {
   constexpr double last_places = 16 * std::numeric_limits<double>::epsilon();
-  return step_ > last_places * std::max(std::abs(start_), std::abs(end_));
+  const std::string which =
+      fmt::format("outputs {:g} apart (DTOUT, or DT of a SENSOR) from a time of {:g} to {:g}", step_, start_, end_);
+  if (!(step_ > last_places * std::max(std::abs(start_), std::abs(end_))))
+    return Failure{"simulation", which + " are the same instant, but for rounding", {}, "outputs-too-close"};
+  if (count_ > most) {
+    return Failure{"simulation",
+                   fmt::format("{} are {:.4g}, and {:.0e} are the most", which, static_cast<double>(count_),
+                               static_cast<double>(most)),
+                   {},
+                   "too-many-outputs"};
+  }
+  return std::nullopt;
 }
 
 double OutputTimes::at(std::int64_t k) const { return k >= count_ ? end_ : start_ + step_ * static_cast<double>(k); }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "system/operating_point.h"
+
 namespace dynalin {
 
 class OutputTimes {
@@ -18,8 +20,9 @@ class OutputTimes {
   std::int64_t count() const { return count_; }  // of intervals
   // More outputs than this are no simulation that anybody waits for, or has a disk for.
   static constexpr std::int64_t most = 100'000'000;
-  // Whether numbers of double precision tell each instant from the next.
-  bool are_distinct() const;
+  // Why they cannot be handed out, nothing where they can: more than `most`, or instants that rounding does not tell
+  // apart.
+  std::optional<Failure> refusal() const;
   // The k-th of 0 … count(), exact at both ends.
   double at(std::int64_t k) const;
   // Where a step of about this length from `now`, which is before the k-th, ends: there if that is no farther, half-way

@@ -254,8 +254,8 @@ class QuasiStaticRun {
   }
 
   // Hands out the equilibrium at hand, as every one is, and does what sensors ask for there.
-  Result<void> follow(const EventAction& action, Instant instant) {
-    const bool handed_out = instant == Instant::output || action.output || action.ends();
+  Result<void> follow(const EventAction& action, Instant which) {
+    const bool handed_out = which == Instant::output || action.output || action.ends();
     const bool goes_on =
         !watch_ || watch_(SimulationStep{system_, at_, handed_out, statistics_, action.text}) == GoOn::yes;
     if (!goes_on) {
@@ -266,6 +266,7 @@ class QuasiStaticRun {
       end_ = SimulationEnd::reached;
     } else if (action.output_step) {
       times_ = OutputTimes(at_.time, times_.end(), *action.output_step);
+      if (auto refusal = times_.refusal()) return tl::unexpected(std::move(*refusal));
       next_ = 1;
     } else {
       while (times_.at(next_) <= at_.time) ++next_;

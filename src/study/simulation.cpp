@@ -50,17 +50,7 @@ StudyResult<SimulatedPoint> simulate(StudyPoint from, const SimulationRequest& r
                                request.times.end(), result.point.values.time),
                    "end-of-simulation");
   }
-  if (!request.times.are_distinct()) {
-    return refused(fmt::format("outputs {:g} apart up to a time of {:g} are the same instant, but for rounding",
-                               request.times.step(), request.times.end()),
-                   "outputs-too-close");
-  }
-  if (request.times.count() > OutputTimes::most) {
-    return refused(fmt::format("outputs {:g} apart (DTOUT) up to a time of {:g} are {:.4g}, and {:.0e} are the most",
-                               request.times.step(), request.times.end(), static_cast<double>(request.times.count()),
-                               static_cast<double>(OutputTimes::most)),
-                   "too-many-outputs");
-  }
+  if (auto refusal = request.times.refusal()) return tl::unexpected(StudyFailure(std::move(*refusal)));
   const std::size_t freedoms = degrees_of_freedom(system, result.point.values);
   result.kind = kind_at(result.point, request.kind);
   Findings findings;
