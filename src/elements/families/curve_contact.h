@@ -148,7 +148,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
       eq.begin_constraint(p.first_row, static_cast<std::int32_t>(n));
       const PairMotion pair = pair_motion(motion, p.I, p.J);
       const Nested work = reaction_work(p, pair, motion);
-      const Reaction at_I = reaction_at_I(work);
+      const ReactionWrench at_I = reaction_at_I(work);
       apply_partials(pair, spread(pair, relative_wrench(at_I), Partials::yes), eq);
       const Matrix3 R = value(pair.axes_J);
       for (std::size_t a = 0; a < m; ++a) {
@@ -193,11 +193,11 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
     Nested work{};
     for (std::size_t r = 0; r < n; ++r) work += lambda(p, r, motion) * rows[r];
     const auto at_contact = [&](const Nested& scalar) {
-      Reaction reaction = reaction_at_I(scalar);
+      ReactionWrench reaction = reaction_at_I(scalar);
       reaction.torque -= cross(point, reaction.force);
       return reaction;
     };
-    const Reaction reaction = at_contact(work);
+    const ReactionWrench reaction = at_contact(work);
     out.force = spread(out.pair, relative_wrench(reaction), wanted);
     // Both markers are at the point of contact.
     out.pair.delta = {};
@@ -205,7 +205,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
     if (wanted == Partials::no) return;
     const Matrix3 R = value(out.pair.axes_J);
     for (std::size_t r = 0; r < n; ++r) {
-      const Reaction unit = at_contact(rows[r]);
+      const ReactionWrench unit = at_contact(rows[r]);
       out.scalars.push_back({PartialBy::lambda, p.first_row + static_cast<std::int32_t>(r), R * plain(unit.force),
                              R * plain(unit.torque)});
     }
@@ -277,7 +277,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
     std::int32_t first_row;
   };
   // Force and torque on I in the axes of J, with their variation.
-  struct Reaction {
+  struct ReactionWrench {
     Vec3<Dual<seeds>> force, torque;
   };
 
@@ -317,7 +317,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
     for (std::size_t r = 0; r < n; ++r) work += lambda(p, r, motion) * rows[r];
     return work;
   }
-  static Reaction reaction_at_I(const Nested& work) {
+  static ReactionWrench reaction_at_I(const Nested& work) {
     const auto& g = work.partial;
     return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
   }
@@ -325,7 +325,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
   static Vector slope(const Vec3<Dual<seeds>>& v, std::size_t seed) {
     return {v.x.partial[seed], v.y.partial[seed], v.z.partial[seed]};
   }
-  static RelativeWrench relative_wrench(const Reaction& reaction) {
+  static RelativeWrench relative_wrench(const ReactionWrench& reaction) {
     RelativeWrench w;
     w.force = plain(reaction.force), w.torque = plain(reaction.torque);
     for (std::size_t i = 0; i < 6; ++i) {
