@@ -18,7 +18,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr double balance = 1e-6;   // of the forces at play
+constexpr double slight = 1e-6;    // accelerations beside gravity and the slowest mode, forces beside those at play
 constexpr double unseen = 1e-9;    // turn beside the slowest mode, acceleration beside gravity and what that mode does
 constexpr double roundings = 100;  // that forces may be off: the estimate counts each number once
 constexpr double stated_digits = 1e-10;    // to which a dataset states coordinates, of the model's length
@@ -54,10 +54,12 @@ class Unbalanced {
     }
     is_far_ = !(distance(known) <= known) || prescribed_acceleration(op) > least;
   }
-  bool any(std::int32_t first, std::int32_t count) const {
+  // Of coordinates that accelerate slightly: by what forces do that are stated to a few digits.
+  bool any(std::int32_t first, std::int32_t count, bool slightly) const {
     for (std::int32_t k = first; is_far_ && k < first + count; ++k) {
       const double r = std::abs(force_(k));
-      if (r > balance * equations_.magnitude()(k) && r > roundings * equations_.rounding()(k)) return true;
+      const bool by_digits = slightly && r <= slight * equations_.magnitude()(k);
+      if (!by_digits && r > roundings * equations_.rounding()(k)) return true;
     }
     return false;
   }
@@ -148,29 +150,38 @@ void motion_caution(const System& system, const OperatingPoint& op, const EigenS
     if (a > 0) least = std::min(least, a);
   if (!std::isfinite(least)) least = 0;
   const auto turns = [&](const Movement& m) { return m.turning > std::max(unseen, left_by_integration) * slowest; };
-  const auto may_accelerate = [&](const Movement& m) { return m.acceleration + L * m.spin_up > unseen * least; };
+  const auto accelerates = [&](const Movement& m, double part) {
+    return m.acceleration + L * m.spin_up > part * least;
+  };
 
   std::vector<bool> counts(movement.size(), false);
   const bool bends = std::ranges::any_of(layout.extras, &ExtraBlock::is_deformation);
+  const auto may_accelerate = [&](const Movement& m) { return accelerates(m, unseen); };
   if (bends || std::any_of(movement.begin() + 1, movement.end(), may_accelerate)) {
     const Unbalanced unbalanced(system, op, std::max(stated_digits, left_by_integration), unseen * least);
     for (std::size_t b = 1; b < movement.size(); ++b) {
       const BodyBlock& block = layout.bodies[b];
-      counts[b] = may_accelerate(movement[b]) && unbalanced.any(block.offset, block.count);
+      const Movement& m = movement[b];
+      counts[b] = may_accelerate(m) && unbalanced.any(block.offset, block.count, !accelerates(m, slight));
     }
     for (const ExtraBlock& e : layout.extras) {
-      if (!e.is_deformation() || !unbalanced.any(e.offset, e.count)) continue;
+      if (!e.is_deformation()) continue;
       const auto owner = std::ranges::find_if(
           layout.bodies, [&](const BodyBlock& b) { return b.label.element() == e.label.element(); });
       if (owner == layout.bodies.end()) continue;
       const auto b = static_cast<std::size_t>(owner - layout.bodies.begin());
       const auto first = motion.extra_acceleration.begin() + static_cast<std::ptrdiff_t>(layout.extra_index(e.offset));
+      Movement m = movement[b];
+      double of_block = 0;
       for (std::int32_t k = 0; k < e.count; ++k) {
-        const double q = std::abs(first[k]);
-        movement[b].deformation = std::max(movement[b].deformation, q);
-        movement[b].of_shape = std::max(movement[b].of_shape, q * L / system.coordinate_scale(e.offset + k));
+        const double q = std::abs(first[k]), moves = q * L / system.coordinate_scale(e.offset + k);
+        m.deformation = std::max(m.deformation, q);
+        of_block = std::max(of_block, moves);
       }
-      counts[b] = counts[b] || movement[b].deformation > 0;
+      if (!unbalanced.any(e.offset, e.count, of_block <= slight * least)) continue;
+      m.of_shape = std::max(m.of_shape, of_block);
+      movement[b] = m;
+      counts[b] = counts[b] || m.deformation > 0;
     }
   }
 

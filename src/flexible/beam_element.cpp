@@ -1,10 +1,11 @@
 #include "flexible/beam_element.h"
 
+#include "base/second_moments.h"
 #include "flexible/beam_points.h"
 
 namespace dynalin {
 
-using beam::cubic_at, beam::cubics, beam::four_places, beam::four_weights, beam::second_moments, beam::traced;
+using beam::cubic_at, beam::cubics, beam::four_places, beam::four_weights, beam::second_moments;
 
 void BeamForces::clear(Partials wanted) {
   elastic.setZero(), inertia.setZero();
@@ -41,7 +42,7 @@ double BeamElement::nodal_mass(std::size_t node) const {
 Matrix3 BeamElement::nodal_inertia(std::size_t node) const {
   const Matrix3 S = second_moments(sections_[node], material_.density);
   const double half = 0.5 * length_, along = material_.density * sections_[node].area * half * half * half / 3;
-  Matrix3 J = half * traced(S);
+  Matrix3 J = half * inertia_tensor(S);
   J(1, 1) += along, J(2, 2) += along;  // of a half rod about its end
   return J;
 }

@@ -25,9 +25,6 @@ inline std::array<double, 4> cubics(double x, double length) {
   return {1 - 3 * a2 + 2 * a3, length * (a - 2 * a2 + a3), 3 * a2 - 2 * a3, length * (a3 - a2)};
 }
 
-// J = tr(A S Aᵀ) − A S Aᵀ and the like.
-inline Matrix3 traced(const Matrix3& m) { return Matrix3::diagonal(trace(m)) - m; }
-
 // S of a section, times its density.
 inline Matrix3 second_moments(const BeamSection& s, double density) {
   Matrix3 S;

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/second_moments.h"
 #include "flexible/beam_points.h"
 
 namespace dynalin {
 
-using beam::four_places, beam::second_moments, beam::three_places, beam::three_weights, beam::traced, beam::values;
+using beam::four_places, beam::second_moments, beam::three_places, beam::three_weights, beam::values;
 
 namespace {
 
@@ -276,7 +277,7 @@ void SpatialBeam::add_spin(const Point& p, const SectionRotation<Scalar>& sectio
   for (std::size_t i = 0; i < rotation_seeds; ++i) out.inertia(spin_place(i)) += dot(values(section.spin[i]), torque);
   if (!vary) return;
   // δT = J δϑ″ + 2 (tr G₁ − G₁) δϑ′ + (G₂ᵀ − G₂) δϑ with the spin ϑ = w δq along the motion.
-  const Matrix3 J = traced(G0), swing = 2 * traced(G1), fling = transpose(G2) - G2;
+  const Matrix3 J = inertia_tensor(G0), swing = 2 * inertia_tensor(G1), fling = transpose(G2) - G2;
   for (std::size_t k = 0; k < rotation_seeds; ++k) {
     const Vector w = values(section.spin[k]), w1 = rates(section.spin[k]), w2 = accelerations(section.spin[k]);
     const Vector by_acceleration = J * w, by_rate = 2 * (J * w1) + swing * w,
@@ -295,7 +296,7 @@ BeamMatrix SpatialBeam::mass_matrix(const BeamMotion& m) const {
   const RotationField<double> field(values(m.axes[0]), values(m.axes[1]), values(m.middle));
   for (const Point& p : points_) {
     const SectionRotation<double> section(field, p.x, length());
-    const Matrix3 J = traced(p.weight * (section.R * p.second_moments * transpose(section.R)));
+    const Matrix3 J = inertia_tensor(p.weight * (section.R * p.second_moments * transpose(section.R)));
     for (std::size_t i = 0; i < rotation_seeds; ++i) {
       for (std::size_t k = 0; k < rotation_seeds; ++k)
         out(spin_place(i), spin_place(k)) += dot(section.spin[i], J * section.spin[k]);
@@ -309,7 +310,7 @@ std::array<double, 9> SpatialBeam::kinetic_terms(const BeamMotion& m, const Beam
   const RotationField<double> field(values(m.axes[0]), values(m.axes[1]), values(m.middle));
   for (const Point& p : points_) {
     const SectionRotation<double> section(field, p.x, length());
-    const Matrix3 J = traced(p.weight * (section.R * p.second_moments * transpose(section.R)));
+    const Matrix3 J = inertia_tensor(p.weight * (section.R * p.second_moments * transpose(section.R)));
     Vector w;
     for (std::size_t i = 0; i < rotation_seeds; ++i) w += section.spin[i] * velocity(spin_place(i));
     for (std::size_t k = 0; k < 3; ++k) terms[3 + k] += J(k, k) * w[k] * w[k];

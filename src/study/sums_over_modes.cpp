@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "modal/modal_sums.h"
+#include "modal/energy_per_mode.h"
+#include "modal/modal_masses.h"
 
 namespace dynalin {
 
@@ -63,7 +64,7 @@ void note(SumsOverModes& sums, const Wanted& wanted, std::string_view what, cons
   sums.notes.push_back(fmt::format("Mode{} {}: {}.", modes.size() > 1 ? "s" : "", mode_list(modes), what));
 }
 
-SumsOverModes energy_sums(const EnergyPerMode& energies, const Wanted& wanted, const OperatingPoint& op) {
+SumsOverModes energy_sums(const EnergyPerMode& energies, const Wanted& wanted) {
   EnergyPerMode::Share sum;
   for (const std::size_t k : wanted) {
     const EnergyPerMode::Share& s = energies.modes[k];
@@ -82,7 +83,7 @@ SumsOverModes energy_sums(const EnergyPerMode& energies, const Wanted& wanted, c
   for (const std::size_t k : wanted) add(number_of(k), energies.modes[k]);
   add("Sum", sum);
   add("Model", energies.total);
-  if (std::ranges::all_of(op.velocity, [](double v) { return v == 0; }))
+  if (energies.at_rest)
     sums.below =
         "The model is at rest: kinetic energy and dissipated power are zero, and in equilibrium the potential energy "
         "is "
@@ -164,7 +165,7 @@ StudyResult<TablesOfAllModes> energies_of_all(const Linearization& of, const Eig
     row.values = {share.kinetic, share.potential, share.power};
   };
   return TablesOfAllModes{{table_over(wanted, "ENERGY_PER_MODE", {"Kinetic", "Potential", "Diss. power"}, fill)},
-                          {energy_sums(*energies, wanted, of.point)}};
+                          {energy_sums(*energies, wanted)}};
 }
 
 StudyResult<TablesOfAllModes> masses_of_all(const Linearization& of, const EigenSolution& modes,

@@ -27,7 +27,7 @@ struct TablesOfAllModes {
   std::vector<SumsOverModes> texts;
 };
 
-// ENERGY_PER_MODE and MASS_PER_MODE of LINEAR (modal_sums.h).
+// ENERGY_PER_MODE and MASS_PER_MODE of LINEAR (energy_per_mode.h, modal_masses.h).
 StudyResult<TablesOfAllModes> energies_of_all(const Linearization&, const EigenSolution&, const ModalTableRequest&);
 StudyResult<TablesOfAllModes> masses_of_all(const Linearization&, const EigenSolution&, const ModalTableRequest&);
 

@@ -138,6 +138,25 @@ TEST_F(MotionCaution, is_not_of_digits_that_nobody_states) {
               ::testing::Not(::testing::HasSubstr(code)));
 }
 
+// Forces that all but cancel hide no acceleration that would be seen without them.
+TEST_F(MotionCaution, of_a_small_part_of_large_forces) {
+  const auto between = [](const std::string& preload, const std::string& place) {
+    return "Between\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=0,0,2\nPART/2, MASS=1, CM=20, IP=1,1,1, "
+           "QG=0,0," +
+           place +
+           "\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, J=1\nSPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=340, LENGTH=" +
+           preload + "\nSPRINGDAMPER/2, TRANSLATIONAL, I=20, J=2, K=340, LENGTH=" + preload + "\nEND\n";
+  };
+  for (const std::string preload : {"1", "29412.76", "2.9E8"}) {
+    EXPECT_THAT(remarks(between(preload, "1.02")), ::testing::HasSubstr("acceleration of its mass centre 13.6 meter"))
+        << preload;
+    EXPECT_THAT(remarks(between(preload, "1")), ::testing::Not(::testing::HasSubstr(code))) << preload;
+  }
+  // What digits of the preload do, beside none.
+  EXPECT_THAT(remarks(between("29412.76", "1.000001")), ::testing::Not(::testing::HasSubstr(code)));
+  EXPECT_THAT(remarks(between("1", "1.000001")), ::testing::HasSubstr(code));
+}
+
 // Nodes have their states along global axes whatever RM says.
 TEST_F(MotionCaution, of_a_moving_reference_names_what_is_not_seen_from_it) {
   const std::string rotor =

@@ -78,6 +78,29 @@ TEST_F(RoundingShares, energies_do_not_depend_on_the_units_of_a_controller) {
   }
 }
 
+// What an integration leaves of velocities where nothing moves is no energy.
+TEST_F(RoundingShares, a_point_that_rests_behind_a_simulation_has_no_energy_to_share) {
+  const std::string pair =
+      "Pair\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-9.81\nPART/1, GROUND\nMARKER/1\n"
+      "PART/2, MASS=40, CM=20, IP=1,1,1, QG=0,0,0.3\nMARKER/20\nPART/3, MASS=300, CM=30, IP=9,9,9, QG=0,0,0.8\n"
+      "MARKER/30\nJOINT/1, TRANSLATIONAL, I=20, J=1\nJOINT/2, TRANSLATIONAL, I=30, J=20\n"
+      "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=180000, C=50, LENGTH=0.3\n"
+      "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=20, K=18000, C=1500, LENGTH=0.7\nEND\n";
+  const std::string share = "LINEAR/EIGENSOL, ENERGY_PER_MODE=ALL\n", energies = "Energies per mode",
+                    line = "The model is at rest";
+  const RunResult still = run(pair, "SIMULATE/STATICS\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n" + share);
+  ASSERT_EQ(still.status, 0) << still.err;
+  for (const auto& [label, values] : table(still.text("model.txt"), energies))
+    EXPECT_THAT(values, ::testing::Each(0)) << label;
+  EXPECT_THAT(still.text("model.txt"), HasSubstr(line));
+  // A millionth of the length of the model is some.
+  const RunResult moves =
+      run(pair, "SIMULATE/STATICS\nACCGRAV/KGRAV=-9.810001\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n" + share);
+  ASSERT_EQ(moves.status, 0) << moves.err;
+  for (const double v : row(moves.text("model.txt"), energies, "Model")) EXPECT_GT(v, 0);
+  EXPECT_THAT(moves.text("model.txt"), Not(HasSubstr(line)));
+}
+
 // A point between three springs in one tilted plane: across it no damper does anything.
 const std::string tilted =
     "Plane\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, QP=1,0.2,0.3\nMARKER/2, QP=-0.3,0.9,0.1\n"

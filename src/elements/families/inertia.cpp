@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/second_moments.h"
+
 namespace dynalin {
 
 InertiaKernel::InertiaKernel(const Model& model, const Layout& layout, BodyKind kind) : gravity_(model.gravity) {
@@ -12,8 +14,8 @@ InertiaKernel::InertiaKernel(const Model& model, const Layout& layout, BodyKind 
     if (body.kind != kind || body.listed.role != BodyRole::rigid) continue;
     const Vector& c = body.p_BC;
     const Matrix3& J = body.J_BC;
-    // ∫ρρᵀ about the CM is tr(J)/2 − J; moving the point adds m c cᵀ.
-    const Matrix3 S = Matrix3::diagonal(0.5 * trace(J)) - J + body.mass * outer(c, c);
+    // About the mass centre; moving the point adds m c cᵀ.
+    const Matrix3 S = second_moments_of(J) + body.mass * outer(c, c);
     const BodyId id{static_cast<std::int32_t>(b)};
     masses_.push_back({id, body.mass, body.mass * c, S});
     bodies_.emplace_back(model, layout, id);
@@ -46,13 +48,13 @@ void InertiaKernel::equations(const Motion& motion, Equations& eq) const {
     if (!eq.wants_partials()) continue;
 
     const Matrix3 one = Matrix3::identity();
-    const Matrix3 J = trace(G0) * one - G0;
+    const Matrix3 J = inertia_tensor(G0);
     const std::int32_t column = block.offset;
     eq.add_block(PartialBy::acceleration, m.body, {column}, {m.mass * one, skew(c)}, 1.0);
     if (!block.turns()) continue;
     const Matrix3 G1 = b.Rdot * SA;
     eq.add_block(PartialBy::acceleration, m.body, {column + 3}, {-skew(c), J}, 1.0);
-    eq.add_block(PartialBy::velocity, m.body, {column + 3}, {-2.0 * skew(cdot), 2.0 * (trace(G1) * one - G1)}, 1.0);
+    eq.add_block(PartialBy::velocity, m.body, {column + 3}, {-2.0 * skew(cdot), 2.0 * inertia_tensor(G1)}, 1.0);
     eq.add_block(PartialBy::position, m.body, {column + 3},
                  {-skew(cddot), transpose(G2) - G2 + skew(b.rddot - gravity_) * skew(c)}, 1.0);
   }

@@ -1,4 +1,4 @@
-#include "modal/modal_sums.h"
+#include "modal/energy_per_mode.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
-#include "base/clearly_larger.h"
 #include "linear/balanced.h"
 #include "linear/physical_matrices.h"
 #include "modal/mass_root.h"
@@ -32,57 +32,8 @@ ComplexMatrix times(const Matrix& m, const ComplexMatrix& x) {
 
 // The square of an amplitude that is rounding beside that of another mode.
 constexpr double unexcited = 1e-24;
-
-// What the table of coordinates shows of each mode: mass centres and rotations of all bodies, differential states.
-ComplexMatrix table_entries(const System& system, const OperatingPoint& op, const EigenSolution& modes,
-                            const ComplexMatrix& displacement) {
-  const Layout& layout = system.layout();
-  std::vector<Eigen::RowVectorXcd> rows;
-  for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
-    const BodyBlock& block = layout.bodies[b];
-    if (block.count == 0) continue;
-    ComplexMatrix of = displacement.middleRows(block.offset, block.count);
-    if (block.turns()) {
-      const Matrix3 arm = skew(op.poses[b].R * system.model().bodies[b].p_BC);
-      for (Index i = 0; i < 3; ++i) {
-        for (Index j = 0; j < 3; ++j)
-          of.row(i) -= arm(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) * of.row(3 + j);
-      }
-    }
-    for (Index i = 0; i < of.rows(); ++i) rows.push_back(of.row(i));
-  }
-  for (Index k = modes.vectors.rows() - static_cast<Index>(modes.differential_states); k < modes.vectors.rows(); ++k)
-    rows.push_back(modes.vectors.row(k));
-  ComplexMatrix out(static_cast<Index>(rows.size()), displacement.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Index>(k)) = rows[k];
-  return out;
-}
-
-// Modal coordinates of flexible bodies and of beams, which are in no table.
-ComplexMatrix entries_beside(const System& system, const ComplexMatrix& displacement) {
-  std::vector<Index> rows;
-  for (const ExtraBlock& e : system.layout().extras) {
-    if (!e.is_deformation()) continue;
-    for (Index k = e.offset; k < e.offset + e.count; ++k) rows.push_back(k);
-  }
-  return displacement(rows, Eigen::all);
-}
-
-// The first of entries that are equally large but for rounding.
-Complex largest_entry(const Eigen::VectorXcd& entries) {
-  Complex largest = 0;
-  for (const Complex& v : entries) {
-    if (is_clearly_larger(std::abs(v), std::abs(largest))) largest = v;
-  }
-  return largest;
-}
-
-// Equal eigenvalues, or what cannot be told from them, have vectors of any basis of their space.
-bool are_equal(const EigenMode& a, const EigenMode& b) {
-  constexpr double equal = 1e-9;  // to which eigensolutions take values for equal
-  return std::abs(a.eigenvalue_hz - b.eigenvalue_hz) <=
-         equal * std::abs(b.eigenvalue_hz) + a.error_bound_hz + b.error_bound_hz;
-}
+// Of the model's length, what a mode that is at rest may move by: rounding of places.
+constexpr double rounding_of_rest = 1e-13;
 
 // Places of coordinates and of their rates among the states; empty where a coordinate has no rate.
 std::pair<std::vector<Index>, std::vector<Index>> pairs_of(const LinearSystem& linear) {
@@ -238,7 +189,8 @@ class ModalCoordinates {
     out.Phi_.resize(n, n);
     for (Index c = 0; c < n; ++c) {
       const auto k = static_cast<Index>(out.chosen_[static_cast<std::size_t>(c)]);
-      out.Phi_.col(c) = modes.vectors(position, k) / shapes.col(k).norm();
+      out.sizes_.push_back(shapes.col(k).norm());
+      out.Phi_.col(c) = modes.vectors(position, k) / out.sizes_.back();
     }
     out.lu_.compute(out.unit_.cast<Complex>().asDiagonal() * out.Phi_);
     return out;
@@ -246,6 +198,8 @@ class ModalCoordinates {
 
   // Mode by mode of Φ.
   const std::vector<std::size_t>& modes() const { return chosen_; }
+  // Of the eigenvector that is one of Φ.
+  double size(std::size_t i) const { return sizes_[i]; }
   Eigen::VectorXcd of(const Eigen::VectorXd& x) const {
     return lu_.solve(Eigen::VectorXcd(unit_.cwiseProduct(x).cast<Complex>()));
   }
@@ -259,9 +213,28 @@ class ModalCoordinates {
 
   Eigen::VectorXd unit_;
   std::vector<std::size_t> chosen_;
+  std::vector<double> sizes_;
   ComplexMatrix Phi_;
   Eigen::FullPivLU<ComplexMatrix> lu_;
 };
+
+// Amplitudes of modes that move nothing, and of those that do so at no speed: rounding of the operating point.
+void drop_rest(const System& system, const LinearSystem& linear, const EigenSolution& modes,
+               const ModalCoordinates& modal, Eigen::VectorXcd& eta, Eigen::VectorXcd& eta_rate) {
+  const ComplexMatrix displacement = linear.displacements(modes.vectors);
+  for (std::size_t i = 0; i < modal.modes().size(); ++i) {
+    const std::size_t mode = modal.modes()[i];
+    double way = 0;  // as a part of the model's length, where the amplitude is 1
+    for (Index k = 0; k < displacement.rows(); ++k)
+      way = std::max(way, std::abs(displacement(k, static_cast<Index>(mode))) /
+                              system.coordinate_scale(static_cast<std::int32_t>(k)));
+    way /= modal.size(i);
+    const double frequency = 2 * std::numbers::pi * std::abs(modes.modes[mode].eigenvalue_hz);
+    const auto at = static_cast<Index>(i);
+    if (std::abs(eta(at)) * way <= rounding_of_rest) eta(at) = 0;
+    if (std::abs(eta_rate(at)) * way <= rounding_of_rest * frequency) eta_rate(at) = 0;
+  }
+}
 
 // Shares that are rounding beside those of other modes.
 void drop_unexcited(std::vector<EnergyPerMode::Share>& modes) {
@@ -305,7 +278,9 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   if (!x) return tl::unexpected(x.error());
   const auto modal = ModalCoordinates::make(linear, modes, position, M);
   if (!modal) return tl::unexpected(modal.error());
-  const Eigen::VectorXcd eta = modal->of(*x), eta_rate = modal->of(at_point.rate);
+  Eigen::VectorXcd eta = modal->of(*x), eta_rate = modal->of(at_point.rate);
+  drop_rest(system, linear, modes, *modal, eta, eta_rate);
+  out.at_rest = eta_rate.isZero(0);
   for (Index i = 0; i < n; ++i) {
     const std::size_t mode = modal->modes()[static_cast<std::size_t>(i)];
     EnergyPerMode::Share& s = out.modes[mode];
@@ -316,69 +291,6 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
     out.total.kinetic += s.kinetic, out.total.potential += s.potential, out.total.power += s.power;
   }
   drop_unexcited(out.modes);
-  return out;
-}
-
-ModalMasses modal_masses(const System& system, const OperatingPoint& op, const LinearSystem& linear,
-                         const EigenSolution& modes, MarkerId frame) {
-  Vector origin{};
-  Matrix3 axes = Matrix3::identity();
-  if (frame.valid()) {
-    const MarkerPlace& place = system.layout().marker(system.signals().place_of(frame));
-    const Motion motion = system.motion(op);
-    origin = motion.point(place), axes = motion.axes(place);
-  }
-  const MassRoot root(system, op);
-  const Matrix rigid = root.of_rigid_motion(origin, axes);
-  const ComplexMatrix displacement = linear.displacements(modes.vectors);
-  ComplexMatrix shapes(rigid.rows(), displacement.cols());
-  shapes.real() = root.of(displacement.real());
-  shapes.imag() = root.of(displacement.imag());
-  ComplexMatrix entries = table_entries(system, op, modes, displacement);
-  ComplexMatrix beside = entries_beside(system, displacement);
-
-  ModalMasses out;
-  for (Index d = 0; d < 6; ++d) out.total[static_cast<std::size_t>(d)] = rigid.col(d).squaredNorm();
-  out.modes.resize(modes.modes.size());
-  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-    const auto at = static_cast<Index>(k);
-    const double before = shapes.col(at).norm();
-    for (int twice = 0; twice < 2; ++twice) {
-      for (std::size_t j = 0; j < k; ++j) {
-        if (!are_equal(modes.modes[j], modes.modes[k])) continue;
-        const auto other = shapes.col(static_cast<Index>(j));
-        if (!(other.squaredNorm() > 0)) continue;
-        const Complex part = other.dot(shapes.col(at)) / other.squaredNorm();
-        shapes.col(at) -= other * part;
-        entries.col(at) -= entries.col(static_cast<Index>(j)) * part;
-        beside.col(at) -= beside.col(static_cast<Index>(j)) * part;
-      }
-    }
-    // Where a body bends and none moves, its modal coordinates are all that there is.
-    constexpr double moving_part = 1e-9;
-    Complex largest = largest_entry(entries.col(at));
-    const Complex bending = largest_entry(beside.col(at));
-    if (std::abs(largest) <= moving_part * std::abs(bending)) largest = bending;
-    ModalMasses::Row& row = out.modes[k];
-    if (!(shapes.col(at).norm() > 1e-7 * before) || largest == Complex(0)) {
-      row.kind = before > 0 ? ModalMasses::Row::Kind::repeated : ModalMasses::Row::Kind::still;
-      shapes.col(at).setZero();
-      continue;
-    }
-    shapes.col(at) /= largest;
-    entries.col(at) /= largest, beside.col(at) /= largest;
-    row.generalized = shapes.col(at).squaredNorm();
-    // Beside the largest that a motion of this size can have, what rounding makes of a sum that is zero: of motions in
-    // this direction that cancel, and of one that is all there is in it and is rounding itself.
-    const double rounding =
-        std::min(1e-8, std::max(64.0, modes.modes[k].condition) * std::numeric_limits<double>::epsilon());
-    for (Index d = 0; d < 6; ++d) {
-      const Complex L = shapes.col(at).dot(rigid.col(d).cast<Complex>());
-      if (std::abs(L) <= rounding * shapes.col(at).norm() * rigid.col(d).norm()) continue;
-      row.participation[static_cast<std::size_t>(d)] = L / row.generalized;
-      row.effective[static_cast<std::size_t>(d)] = std::norm(L) / row.generalized;
-    }
-  }
   return out;
 }
 
