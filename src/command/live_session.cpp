@@ -228,7 +228,8 @@ int LiveSession::finish() {
   close_job();
   if (!written_) return analysis_failed;
   if (!options_.json.empty()) {
-    std::vector<std::string> names = files_.names();
+    std::vector<std::string> names = saved_;
+    std::ranges::move(files_.names(), std::back_inserter(names));
     names.push_back(options_.json);
     const Units units =
         plan_.jobs.empty() || plan_.jobs.front().stages.empty() ? Units{} : plan_.jobs.front().model().units;

@@ -45,14 +45,15 @@ class Stated {
     } else if (s.name != command_.name) {
       return;
     }
+    // DEFAULT goes before what stands beside it.
+    const auto is = [&](const WrittenArgument& w, std::string_view name) {
+      const auto k = find_keyword(w.name.text(), names_);
+      return k && names_[*k] == name;
+    };
+    if (std::ranges::any_of(s.arguments, [&](const WrittenArgument& w) { return is(w, "DEFAULT"); })) list_.clear();
     for (const WrittenArgument& w : s.arguments) {
       const auto k = find_keyword(w.name.text(), names_);
-      if (!k || names_[*k] == "LIST") continue;
-      if (names_[*k] == "DEFAULT") {
-        list_.clear();
-        continue;
-      }
-      add(names_[*k], w);
+      if (k && names_[*k] != "LIST" && names_[*k] != "DEFAULT") add(names_[*k], w);
     }
   }
   void add(std::string_view name, const WrittenArgument& w) {

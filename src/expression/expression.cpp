@@ -89,7 +89,8 @@ std::vector<Expression::Call> Expression::calls() const {
   std::vector<Call> calls;
   for (std::size_t k = 0; k < program_->nodes.size(); ++k) {
     const ExpressionNode& node = program_->nodes[k];
-    if (node.kind == ExpressionNode::Kind::branch) calls.push_back({"IF", program_->places[k]});
+    // The merge has the place of the whole, the branch that of its condition.
+    if (node.kind == ExpressionNode::Kind::merge) calls.push_back({"IF", program_->places[k]});
     if (node.kind == ExpressionNode::Kind::call) calls.push_back({node.function->name, program_->places[k]});
   }
   return calls;

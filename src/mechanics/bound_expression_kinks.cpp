@@ -46,7 +46,10 @@ std::string BoundExpression::kink_along(std::size_t moved, double size, std::vec
   const Side below_far = side(-far * step), above_far = side(far * step);
   const Side below = side(-near * step), above = side(near * step);
   const std::string name(expression_.atoms()[moved].at.text());
-  if (stays(below_far.value, above_far.value, below.value, above.value))
+  // What slopes make of the way between the sides is no jump: the corner is between them, and not at the point.
+  const double made_by_slopes = near * step * (std::abs(below.slopes[moved]) + std::abs(above.slopes[moved]));
+  if (stays(below_far.value, above_far.value, below.value, above.value) &&
+      !(std::abs(above.value - below.value) <= made_by_slopes))
     return fmt::format("jumps here from {:g} to {:g} with {}", below.value, above.value, name);
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!stays(below_far.slopes[k], above_far.slopes[k], below.slopes[k], above.slopes[k])) continue;

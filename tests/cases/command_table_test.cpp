@@ -133,7 +133,11 @@ TEST_F(CommandTable, commands_act_or_are_named) {
       {"IC/ERROR=1E-8, LIST", "   ERROR    =    1.000000e-08"},
       {"KINEMATICS/LIST", "Current KINEMATICS settings are:"},
       {"LSOLVER/UMF, LIST", "   TYPE      = UMF"},
-      {"OUTPUT/LIST", "Current OUTPUT settings are:"},
+      {"OUTPUT/LIST", "Current OUTPUT settings are:\n   request file  = NOREQSAVE\n   graphics file = NOGRSAVE\n"},
+      {"OUTPUT/REQSAVE, DSCALE=2, 3, DEFAULT, LIST", "   request file  = REQSAVE\n"},
+      {"OUTPUT/NOREQSAVE, FIXED, YPR, LIST",
+       "   request file  = NOREQSAVE\n   graphics file = NOGRSAVE\n   tables        = PRINT where an OUTPUT asks for "
+       "anything\n   FIXED         = ON\n   angles        = YPR\n"},
       {"PREFERENCES/SIMEXIT=ON, LIST", "   SIMEXIT                    = ON"},
       {"MARKER/21, LIST", "Current MARKER/21 data are:\n   PART = 2\n   QP   = 0,0,1\n"},
       {"SPRINGDAMPER/1, K=900, LIST", "   K             = 900"},

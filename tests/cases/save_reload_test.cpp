@@ -102,6 +102,7 @@ TEST_F(SaveReload, a_system_reloads_without_its_dataset_and_goes_on_with_edits_a
                               "EQUILIBRIUM/ALIMIT=1D\nENVIRONMENT/NAME=MSC_LINEAR_PBCS_STATES\nSIMULATE/INITIAL\n"
                               "SAVE/SYSTEM, FILE=whole.save\nLINEAR/EIGENSOL\nSIMULATE/STATICS\n");
   ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.json.at("files").dump(), HasSubstr("whole.save"));
   std::filesystem::remove(folder_ / "model.adm");
   const RunResult r = commands("later.acf", "RELOAD/SYSTEM, FILE=whole.save\nLINEAR/EIGENSOL\nSIMULATE/STATICS\n");
   ASSERT_EQ(r.status, 0) << r.err;

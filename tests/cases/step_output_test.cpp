@@ -513,6 +513,16 @@ TEST_F(StepOutputs, are_written_from_the_command_output_on) {
   EXPECT_THAT(r.err, HasSubstr("nothing here acts on OUTPUT/OSFORMAT"));
 }
 
+TEST_F(StepOutputs, are_by_default_what_they_are_without_the_command) {
+  write("model.adm", crank + "REQUEST/1, F2=5\nEND\n");
+  for (const std::string asked : {"DEFAULT", "DEFAULT, FIXED"}) {
+    write("model.acf", "model\nmodel\nOUTPUT/" + asked + "\nSIMULATE/INITIAL\n");
+    const RunResult r = run_file("model.acf");
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.wrote("model.out"), asked != "DEFAULT") << asked;
+  }
+}
+
 TEST_F(StepOutputs, are_planned_before_anything_runs) {
   write("model.adm", crank + "OUTPUT/REQSAVE, GRSAVE\nREQUEST/1, F2=5\nEND\n");
   write("model.acf", "model\nmodel\nLINEAR/STATEMAT, FILE=model.req\n");

@@ -216,9 +216,10 @@ TEST_F(UserCoordinates, what_is_no_smooth_function_of_positions_and_time_is_refu
       "VARIABLE/4, FUNCTION=FX(31)\nVARIABLE/5, FUNCTION=ABS(DX(30))\nVARIABLE/6, FUNCTION=TIME\n"
       "VARIABLE/7, FUNCTION=DX(30)+0.1*VARVAL(7)\nVARIABLE/8, FUNCTION=2*VARVAL(5)\nVARIABLE/9, "
       "FUNCTION=SQRT(DZ(30))+DX(30)\nVARIABLE/10, FUNCTION=DX(30)+DM(31,22)\n"
+      "VARIABLE/11, FUNCTION=IF(DX(30)-9: DX(30), 0, 1)\n"
       "PSTATE/1, VARIABLES=1\nPSTATE/2, VARIABLES=2\nPSTATE/3, VARIABLES=3\nPSTATE/4, VARIABLES=4\nPSTATE/5, "
       "VARIABLES=5\nPSTATE/6, VARIABLES=6\nPSTATE/7, VARIABLES=7\nPSTATE/8, VARIABLES=8\nPSTATE/9, "
-      "VARIABLES=9\nPSTATE/10, VARIABLES=10\n");
+      "VARIABLES=9\nPSTATE/10, VARIABLES=10\nPSTATE/11, VARIABLES=11\n");
   const std::vector<std::pair<int, std::vector<std::string>>> wrong = {
       {1, {"model.adm:18:22: VARIABLE/1", "reads VX(30), a velocity"}},
       {2, {"model.adm:18:22: VARIABLE/2", "reads, through VARIABLE/1, VX(30), a velocity"}},
@@ -229,7 +230,8 @@ TEST_F(UserCoordinates, what_is_no_smooth_function_of_positions_and_time_is_refu
       {7, {"model.adm:24:33: VARIABLE/7", "depends on VARIABLE/7, which depends on itself"}},
       {8, {"model.adm:22:22: VARIABLE/8", "reads, through VARIABLE/5, ABS(DX(30)), which is not smooth"}},
       {9, {"model.adm:26:22: VARIABLE/9", "the derivative of SQRT is infinite at 0"}},
-      {10, {"model.adm:27:30: VARIABLE/10", "reads DM(31,22), a distance that is zero"}}};
+      {10, {"model.adm:27:30: VARIABLE/10", "reads DM(31,22), a distance that is zero"}},
+      {11, {"model.adm:28:23: VARIABLE/11", "reads IF(DX(30)-9: DX(30), 0, 1), which is not smooth"}}};
   for (const auto& [pstate, texts] : wrong) {
     const RunResult r = run(model, fmt::format("LINEAR/EIGENSOL, PSTATE={}\n", pstate));
     EXPECT_EQ(r.status, 2) << pstate;

@@ -6,6 +6,24 @@ namespace dynalin::commands {
 
 namespace {
 
+constexpr auto rows = std::to_array<SettingRow>({
+    {"request file", "REQSAVE NOREQSAVE", "NOREQSAVE"},
+    {"graphics file", "GRSAVE NOGRSAVE", "NOGRSAVE"},
+    {"tables", "PRINT NOPRINT", "PRINT where an OUTPUT asks for anything"},
+    {"FIXED", "FIXED", "OFF"},
+    {"angles", "YPR EULER", "EULER"},
+    {"DSCALE", "DSCALE", "1"},
+    {"DZERO", "DZERO", "none"},
+    {"VSCALE", "VSCALE", "1"},
+    {"VZERO", "VZERO", "none"},
+    {"ASCALE", "ASCALE", "1"},
+    {"AZERO", "AZERO", "none"},
+    {"FSCALE", "FSCALE", "1"},
+    {"FZERO", "FZERO", "none"},
+});
+
+constexpr SettingList list{.rows = rows};
+
 class Output final : public SettingOf<WrittenOutput> {
  public:
   CommandFiles files() const override {
@@ -25,7 +43,7 @@ class Output final : public SettingOf<WrittenOutput> {
 
 std::span<const CommandKind> output() {
   static constexpr CommandKind kind =
-      setting<Output>("OUTPUT", "which files of requests and graphics are written", "OUTPUT/REQSAVE, NOPRINT");
+      setting<Output>("OUTPUT", "which files of requests and graphics are written", "OUTPUT/REQSAVE, NOPRINT", list);
   return {&kind, 1};
 }
 

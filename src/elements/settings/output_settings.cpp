@@ -64,8 +64,8 @@ void WrittenResults::remark(std::span<const WrittenResults> all, std::span<const
 
 void WrittenOutput::apply(OutputSettings& s) const {
   if (defaults) s = {};
-  // LIST alone asks for nothing.
-  s.stated = s.stated || requests || graphics || print || fixed || yaw_pitch_roll || !list;
+  // LIST alone asks for nothing, and DEFAULT for what is without an OUTPUT.
+  s.stated = s.stated || requests || graphics || print || fixed || yaw_pitch_roll || !(list || defaults);
   if (requests || no_requests) s.request_file = requests;
   if (graphics || no_graphics) s.graphics_file = graphics;
   if (print || no_print) s.tables = print;
