@@ -106,6 +106,12 @@ void write_chosen_states(std::ostream& out, const ChosenStates& c) {
   fmt::print(out, "\n  The other kinematic states are the respective derivatives.\n");
 }
 
+// Its row has no rate of a rate.
+bool is_first_order(const SecondOrder& s, std::size_t coordinate) {
+  const auto k = static_cast<Eigen::Index>(coordinate);
+  return s.M(k, k) == 0;
+}
+
 }  // namespace
 
 void write_matrix_states(std::ostream& out, const StateSpace& s) {
@@ -119,7 +125,9 @@ void write_matrix_states(std::ostream& out, const StateSpace& s) {
 void write_matrix_states(std::ostream& out, const SecondOrder& s) {
   std::vector<StateLabel> states;
   for (std::size_t k = 0; k + s.differential_states < s.states.size(); ++k) {
-    states.insert(states.end(), 2, s.states[k]);
+    states.push_back(s.states[k]);
+    if (is_first_order(s, k)) continue;
+    states.push_back(s.states[k]);
     states.back().is_rate = true;
   }
   fmt::print(out, "\n  Second-order matrices computation started.\n\n");

@@ -369,6 +369,7 @@ TEST_F(Massless, second_order_matrices_give_the_points_rows_of_first_order) {
   expect_close(K[1][1], (k1 + k2) / c1, exact);
   EXPECT_EQ(B[0][0], 0);
   EXPECT_EQ(B[1][1], 1);
+  EXPECT_THAT(r.message, ::testing::HasSubstr("        3 kinematic states"));
   const RunResult condensed = run(line({0, m}, link(1, 20, 1, k1, 0) + link(2, 30, 20, k2, 0)), "LINEAR/MKB, FILE=m\n");
   ASSERT_EQ(condensed.status, 0) << condensed.err;
   expect_close(condensed.matrix(0, "K")[0][0], k1 * k2 / (k1 + k2) / m, exact);
