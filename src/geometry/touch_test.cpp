@@ -103,6 +103,8 @@ double implicit(const Side& s, const Vector& p) {
   return std::visit(at, s.shape);
 }
 
+void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
+
 class Touches : public ::testing::TestWithParam<Pair> {
  protected:
   static constexpr int draws = 60;

@@ -18,6 +18,7 @@ struct Row {
   int n;
   std::array<double, 3> cantilever, free;
 };
+void PrintTo(const Row& r, std::ostream* out) { *out << r.n << " elements"; }
 class Straight : public Beams, public ::testing::WithParamInterface<Row> {};
 
 TEST_P(Straight, cantilever_and_free_beam_have_the_discrete_values_in_both_planes) {
@@ -45,6 +46,7 @@ struct Deep {
   double height;  // of a rectangular section, as part of the length
   std::array<double, 3> exact;
 };
+void PrintTo(const Deep& d, std::ostream* out) { *out << "height " << d.height; }
 class Timoshenko : public Beams, public ::testing::WithParamInterface<Deep> {};
 
 TEST_P(Timoshenko, deep_cantilever_has_the_discrete_values_and_converges) {
@@ -134,6 +136,7 @@ struct Spin {
   int n;
   std::array<double, 3> flap;
 };
+void PrintTo(const Spin& s, std::ostream* out) { *out << "speed " << s.lambda << ", " << s.n << " elements"; }
 class Rotating : public Spinning, public ::testing::WithParamInterface<Spin> {};
 
 TEST_P(Rotating, flap_frequencies_rise_with_the_tension) {

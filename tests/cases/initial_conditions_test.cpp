@@ -82,6 +82,7 @@ struct DoubleRoot {
   const char* c;
   double slope, tolerance;  // the rounding of w, ε/√(1 − c), beside 1 − w/2 = √(1 − c)
 };
+void PrintTo(const DoubleRoot& r, std::ostream* out) { *out << "c=" << r.c; }
 class NearDoubleRoot : public Cases, public ::testing::WithParamInterface<DoubleRoot> {};
 
 TEST_P(NearDoubleRoot, has_the_derivative_that_its_digits_allow) {
@@ -151,6 +152,9 @@ struct Contradiction {
   const char* text;
   const char* named;  // one of the rows, empty if they agree
 };
+void PrintTo(const Contradiction& c, std::ostream* out) {
+  for (const char letter : std::string_view(c.text)) *out << (letter == '\n' ? '|' : letter);
+}
 class SecondDerivatives : public Cases, public ::testing::WithParamInterface<Contradiction> {};
 
 TEST_P(SecondDerivatives, of_redundant_rows_have_to_agree) {

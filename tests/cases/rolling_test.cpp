@@ -90,6 +90,7 @@ std::string rolling(int first_id, int centre, int axle, double r) {
 struct Wheel {
   double diametral, axial, speed, squared_eigenvalue;
 };
+void PrintTo(const Wheel& w, std::ostream* out) { *out << "speed " << w.speed; }
 class Disk : public Rolling, public ::testing::WithParamInterface<Wheel> {};
 
 TEST_P(Disk, rolls_upright_with_the_closed_form) {
@@ -154,6 +155,7 @@ std::string bicycle(double v, const Place& at = {}) {
 struct Ride {
   double speed, castering, capsize, weave_re, weave_im;
 };
+void PrintTo(const Ride& r, std::ostream* out) { *out << r.speed; }
 class Bicycle : public Rolling, public ::testing::WithParamInterface<Ride> {
  protected:
   void expect_published(const Ride& ride, Spectrum s) const;

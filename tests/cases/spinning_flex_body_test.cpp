@@ -20,6 +20,9 @@ struct Subset {
   const char* stated;
   double coriolis, centrifugal;  // 1 or 0
 };
+void PrintTo(const Subset& s, std::ostream* out) {
+  *out << "coriolis " << s.coriolis << " centrifugal " << s.centrifugal;
+}
 class SpinningInvariants : public Beams, public ::testing::WithParamInterface<Subset> {};
 
 // A mass on three springs beside the axis. In the turning axes its motion x, y from its mean place is

@@ -1,6 +1,6 @@
-// Which attempt at a seed was the first that was acceptable. To find it takes most of the time of a draw, and many
-// programs of tests draw the same seeds: what one has found the others read, from a directory that is emptied whenever
-// the generator is built anew.
+// Which attempt at a seed was the first that was acceptable. To find it, and to see that it is, takes most of the time
+// of a draw, and many programs of tests draw the same seeds: what one has found the others read, from a directory that
+// is emptied whenever the generator is built anew.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,12 @@
 
 namespace dynalin::oracle {
 
-[[nodiscard]] std::optional<std::uint64_t> accepted_attempt(std::uint64_t seed);
-void remember_accepted_attempt(std::uint64_t seed, std::uint64_t attempt);
+struct AcceptedDraw {
+  std::uint64_t attempt = 0;
+  int softenings = 0;  // how many times its friction was made less until nothing jammed
+};
+
+[[nodiscard]] std::optional<AcceptedDraw> accepted_draw(std::uint64_t seed);
+void remember_accepted_draw(std::uint64_t seed, const AcceptedDraw& draw);
 
 }  // namespace dynalin::oracle

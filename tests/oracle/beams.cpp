@@ -24,7 +24,7 @@ Quaternion<T> conjugate(const Quaternion<T>& q) {
 template <class T>
 std::array<Vector3<T>, 3> axes_of(const Quaternion<T>& q) {
   const auto turned = [&](const Vector3<T>& e) {
-    const Vector3<T> t = T(2) * cross(q.v, e);
+    const Vector3<T> t = 2 * cross(q.v, e);
     return e + q.w * t + cross(q.v, t);
   };
   return {turned({T(1), T(0), T(0)}), turned({T(0), T(1), T(0)}), turned({T(0), T(0), T(1)})};
@@ -33,7 +33,7 @@ std::array<Vector3<T>, 3> axes_of(const Quaternion<T>& q) {
 template <class T>
 Quaternion<T> quaternion(const std::array<Vector3<T>, 3>& R) {
   using std::sqrt;
-  const T w = T(0.5L) * sqrt(T(1) + R[0].x + R[1].y + R[2].z);
+  const T w = 0.5L * sqrt(T(1) + R[0].x + R[1].y + R[2].z);
   const T f = T(0.25L) / w;
   return {w, f * Vector3<T>{R[1].z - R[2].y, R[2].x - R[0].z, R[0].y - R[1].x}};
 }
@@ -44,22 +44,39 @@ std::array<Vector3<T>, 3> seen_from(const std::array<Vector3<T>, 3>& R, const st
   return out;
 }
 
-// cos(a/2) and sin(a/2)/a with their slopes by x = a^2, as sums of powers.
+// cos(a/2) and sin(a/2)/a with their slopes by x = a^2, as sums of powers that are exact beyond a whole turn.
+struct HalfAngleSeries {
+  std::array<Real, 20> c{}, s{};
+  constexpr HalfAngleSeries() {
+    Real term = 1;  // 4^-k (-1)^k / (2k)!
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const Real n = static_cast<Real>(k);
+      c[k] = term, s[k] = term / (2 * (2 * n + 1));
+      term *= -0.25L / ((2 * n + 1) * (2 * n + 2));
+    }
+  }
+};
+// The sum of powers, its slope, and half of its second and a sixth of its third derivative.
+std::array<Real, 4> sum_of_powers(const std::array<Real, 20>& of, Real x) {
+  std::array<Real, 4> d{};
+  for (std::size_t k = of.size(); k-- > 0;) {
+    d[3] = d[3] * x + d[2];
+    d[2] = d[2] * x + d[1];
+    d[1] = d[1] * x + d[0];
+    d[0] = d[0] * x + of[k];
+  }
+  return d;
+}
+Real from_derivatives(Real, Real f, Real, Real) { return f; }
+Jet from_derivatives(const Jet& x, Real f, Real f1, Real f2) { return chain(x, f, f1, f2); }
 template <class T>
 struct HalfAngle {
   T c, s, c1, s1;
-  explicit HalfAngle(const T& x) : c(0), s(0), c1(0), s1(0) {
-    Real term = 1;  // 4^-k (-1)^k / (2k)!
-    std::array<Real, 26> of_c{}, of_s{};
-    for (std::size_t k = 0; k < of_c.size(); ++k) {
-      const Real n = static_cast<Real>(k);
-      of_c[k] = term, of_s[k] = term / (2 * (2 * n + 1));
-      term *= -0.25L / ((2 * n + 1) * (2 * n + 2));
-    }
-    for (std::size_t k = of_c.size(); k-- > 0;) {
-      c = c * x + T(of_c[k]), s = s * x + T(of_s[k]);
-      if (k > 0) c1 = c1 * x + T(static_cast<Real>(k) * of_c[k]), s1 = s1 * x + T(static_cast<Real>(k) * of_s[k]);
-    }
+  explicit HalfAngle(const T& x) {
+    static constexpr HalfAngleSeries series;
+    const auto of_c = sum_of_powers(series.c, value_of(x)), of_s = sum_of_powers(series.s, value_of(x));
+    c = from_derivatives(x, of_c[0], of_c[1], 2 * of_c[2]), c1 = from_derivatives(x, of_c[1], 2 * of_c[2], 6 * of_c[3]);
+    s = from_derivatives(x, of_s[0], of_s[1], 2 * of_s[2]), s1 = from_derivatives(x, of_s[1], 2 * of_s[2], 6 * of_s[3]);
   }
 };
 template <class T>
@@ -73,7 +90,7 @@ Vector3<T> logarithm(const Quaternion<T>& q) {
   const T x = dot(q.v, q.v);
   if (value_of(x) > 0.01L) {
     const T sine = sqrt(x);
-    return (T(2) * atan2(sine, q.w) / sine) * q.v;
+    return (2 * atan2(sine, q.w) / sine) * q.v;
   }
   // asin(s)/s in powers of s^2
   std::array<Real, 14> of{1};
@@ -83,7 +100,7 @@ Vector3<T> logarithm(const Quaternion<T>& q) {
   }
   T sum(0);
   for (std::size_t k = of.size(); k-- > 0;) sum = sum * x + T(of[k] / static_cast<Real>(2 * k + 1));
-  return (T(2) * sum) * q.v;
+  return (2 * sum) * q.v;
 }
 
 // Rotations along an element: of its first end, its middle, and of both ends from that.
@@ -94,7 +111,7 @@ struct Turning {
   std::array<Vector3<T>, 2> to_end;
   explicit Turning(const BeamPose<T>& p) : first(p.axis[0]) {
     const Quaternion<T> across = quaternion(seen_from(p.axis[1], p.axis[0]));
-    middle = exponential(T(0.5L) * logarithm(across)) * exponential(p.phi);
+    middle = exponential(0.5L * logarithm(across)) * exponential(p.phi);
     to_end = {logarithm(conjugate(middle)), logarithm(conjugate(middle) * across)};
   }
   // x from 0 to 1
@@ -103,16 +120,16 @@ struct Turning {
     Vector3<T> curvature;  // by x
   };
   [[nodiscard]] Section at(Real x) const {
-    const Vector3<T> a = T((2 * x - 1) * (x - 1)) * to_end[0] + T((2 * x - 1) * x) * to_end[1];
-    const Vector3<T> a1 = T(4 * x - 3) * to_end[0] + T(4 * x - 1) * to_end[1];
+    const Vector3<T> a = ((2 * x - 1) * (x - 1)) * to_end[0] + ((2 * x - 1) * x) * to_end[1];
+    const Vector3<T> a1 = (4 * x - 3) * to_end[0] + (4 * x - 1) * to_end[1];
     const HalfAngle<T> h(dot(a, a));
-    const T x1 = T(2) * dot(a, a1);
+    const T x1 = 2 * dot(a, a1);
     const Quaternion<T> q{h.c, h.s * a}, q1{h.c1 * x1, h.s * a1 + (h.s1 * x1) * a};
     const std::array<Vector3<T>, 3> local = axes_of(middle * q);
     Section out;
     for (std::size_t c = 0; c < 3; ++c)
       out.axis[c] = local[c].x * first[0] + local[c].y * first[1] + local[c].z * first[2];
-    out.curvature = T(2) * (conjugate(q) * q1).v;
+    out.curvature = 2 * (conjugate(q) * q1).v;
     return out;
   }
 };
@@ -134,20 +151,20 @@ struct Stretches {
   static std::array<Real, 3> parabolas(Real x) { return {(2 * x - 1) * (x - 1), 4 * x * (1 - x), (2 * x - 1) * x}; }
   [[nodiscard]] Vector3<T> at(Real x) const {
     const auto N = parabolas(x);
-    return T(N[0]) * of[0] + T(N[1]) * of[1] + T(N[2]) * of[2];
+    return N[0] * of[0] + N[1] * of[1] + N[2] * of[2];
   }
 };
 template <class T>
 Stretches<T> stretches(const BeamPose<T>& p, const Turning<T>& turning, Real length) {
   Stretches<T> out;
   out.of[0] = in_axes(p.axis[0], p.s[0]), out.of[2] = in_axes(p.axis[1], p.s[1]);
-  Vector3<T> rest = T(1 / length) * (p.r[1] - p.r[0]);
+  Vector3<T> rest = (1 / length) * (p.r[1] - p.r[0]);
   std::array<Vector3<T>, 3> column{};  // what the middle one leads along
   for (const GaussPoint& g : three_points()) {
     const auto N = Stretches<T>::parabolas(g.at);
     const auto section = turning.at(g.at);
-    rest = rest - T(g.weight) * out_of_axes(section.axis, T(N[0]) * out.of[0] + T(N[2]) * out.of[2]);
-    for (std::size_t c = 0; c < 3; ++c) column[c] += T(g.weight * N[1]) * section.axis[c];
+    rest = rest - g.weight * out_of_axes(section.axis, N[0] * out.of[0] + N[2] * out.of[2]);
+    for (std::size_t c = 0; c < 3; ++c) column[c] += (g.weight * N[1]) * section.axis[c];
   }
   const Vector3<T> yz = cross(column[1], column[2]);
   const T volume = dot(column[0], yz);
@@ -184,13 +201,13 @@ BeamShape<T> BeamElement::shape(const BeamPose<T>& p) const {
   for (std::size_t g = 0; g < strain_points; ++g) {
     const Real x = three_points()[g].at;
     const auto section = turning.at(x);
-    out.stretch[g] = along.at(x), out.curvature[g] = T(1 / length_) * section.curvature, out.axis[g] = section.axis;
+    out.stretch[g] = along.at(x), out.curvature[g] = (1 / length_) * section.curvature, out.axis[g] = section.axis;
   }
   for (std::size_t g = 0; g < line_points; ++g) {
     const Real x = four_points()[g].at;
     const auto h = cubics(x, length_);
     out.line_axis[g] = turning.at(x).axis;
-    out.place[g] = T(h[0]) * p.r[0] + T(h[1]) * p.s[0] + T(h[2]) * p.r[1] + T(h[3]) * p.s[1];
+    out.place[g] = h[0] * p.r[0] + h[1] * p.s[0] + h[2] * p.r[1] + h[3] * p.s[1];
   }
   return out;
 }

@@ -19,6 +19,17 @@ struct Relative {
   [[nodiscard]] Vector3<T> turned(const Vector3<T>& v) const { return v.x * x + v.y * y; }
 };
 
+template <class T>
+struct Trihedron {
+  Vector3<T> p;
+  std::array<Vector3<T>, 3> axis;
+};
+
+template <class View>
+auto placed(const View& v) {
+  return Trihedron<std::decay_t<decltype(v.p().x)>>{v.p(), {v.axis(0), v.axis(1), v.axis(2)}};
+}
+
 template <class View>
 auto relative(const View& i, const View& j) {
   const auto seen = [&](const auto& v) {
@@ -75,12 +86,6 @@ Parameters<T> improved(const Touching& t, const Slopes& s, const Relative<T>& I,
   const Parameters<T> g = conditions(t, I, u);
   return {u[0] - T(s[0][0]) * g[0] - T(s[0][1]) * g[1], u[1] - T(s[1][0]) * g[0] - T(s[1][1]) * g[1]};
 }
-
-template <class T>
-struct Trihedron {
-  Vector3<T> p;
-  std::array<Vector3<T>, 3> axis;
-};
 
 // On a curve, global axes: x along it, y away from the centre of curvature.
 template <class T, class View>
@@ -194,7 +199,7 @@ std::array<T, 2> Evaluator<T>::contact_parameters(std::size_t k) const {
     const Touching touching{c.two_curves ? &model_.curves_.at(c.icurve) : nullptr, c.plane,
                             model_.curves_.at(c.jcurve)};
     const Contact& contact = model_.mechanism_.contacts[k];
-    const Relative<T> I = relative(view(contact.i), view(contact.j));
+    const Relative<T> I = relative(placed(view(contact.i)), placed(view(contact.j)));
     // Each step makes one more derivative exact.
     for (int order = 0; order < 2; ++order) u = improved<T>(touching, c.slopes, I, u);
   }
@@ -207,7 +212,7 @@ T Evaluator<T>::gap(const Node& n) const {
   const auto& c = model_.contact_data_[k];
   const Touching touching{c.two_curves ? &model_.curves_.at(c.icurve) : nullptr, c.plane, model_.curves_.at(c.jcurve)};
   const Contact& contact = model_.mechanism_.contacts[k];
-  const Relative<T> I = relative(view(contact.i), view(contact.j));
+  const Relative<T> I = relative(placed(view(contact.i)), placed(view(contact.j)));
   const Parameters<T> u = contact_parameters(k);
   if (n.ids[1] > 1) return dot(n.ids[1] == 2 ? I.x : I.y, touching.b.at(u[1], 1));
   const Vector3<T> d = gap_vector(touching, I, u);
@@ -224,20 +229,21 @@ T Evaluator<T>::gap(const Node& n) const {
 
 // Its velocity is that of the point of contact, its angular velocity that of its axes.
 template <>
-Evaluator<Jet>::View Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const {
+Evaluator<Jet>::Seen Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const {
   if (variation_ != nullptr) throw std::logic_error("no constraint may follow a point of contact");
   const auto& c = model_.contact_data_[contact];
   const Contact& written = model_.mechanism_.contacts[contact];
-  const Trihedron<Jet> at = trihedron(model_.curves_.at(on_i ? c.icurve : c.jcurve),
-                                      contact_parameters(contact)[on_i ? 0 : 1], view(on_i ? written.i : written.j));
-  View out{at.p, differentiated(at.p), {}, {}, {}, at.axis};
+  const Trihedron<Jet> at =
+      trihedron(model_.curves_.at(on_i ? c.icurve : c.jcurve), contact_parameters(contact)[on_i ? 0 : 1],
+                placed(view(on_i ? written.i : written.j)));
+  Seen out{at.p, differentiated(at.p), {}, {}, {}, at.axis};
   out.a = differentiated(out.v);
   for (const Vector3<Jet>& e : at.axis) out.w += Jet(0.5L) * cross(e, differentiated(e));
   out.al = differentiated(out.w);
   return out;
 }
 template <>
-Evaluator<Real>::View Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const {
+Evaluator<Real>::Seen Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const {
   const auto along = Evaluator<Jet>(model_).contact_view(contact, on_i);
   const auto now = [](const Vector3<Jet>& v) { return Vec{v.x.v, v.y.v, v.z.v}; };
   return {now(along.p), now(along.v),  now(along.a),

@@ -14,6 +14,7 @@ int id_or_zero(const std::vector<int>& ids, std::size_t k) { return k < ids.size
 Vector3<Jet> jets(const Vec& v, const Vec& d, const Vec& dd) {
   return {{v.x, d.x, dd.x}, {v.y, d.y, dd.y}, {v.z, d.z, dd.z}};
 }
+Vec dark() { return {unknown(), unknown(), unknown()}; }
 
 }  // namespace
 
@@ -26,44 +27,72 @@ Jet Evaluator<Jet>::without_rate(Real value) {
   return {value, unknown(), unknown()};
 }
 
-template <>
-Evaluator<Real>::View Evaluator<Real>::view(int id) const {
-  const auto k = static_cast<std::size_t>(model_.marker_index(id));
-  if (model_.marker_data_[k].contact >= 0) {
-    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
+template <class T>
+Evaluator<T>::View::View(const Evaluator& of, int id)
+    : m_(of.model_.markers_[static_cast<std::size_t>(of.model_.marker_index(id))]), variation_(of.variation_) {
+  const auto& data = of.model_.marker_data_[static_cast<std::size_t>(of.model_.marker_index(id))];
+  if (data.contact >= 0) {
+    at_contact_ = of.contact_view(static_cast<std::size_t>(data.contact), data.on_i);
+  } else if (variation_ != nullptr && data.body == variation_->body) {
+    turn_ = variation_->turn;
+    shift_ = variation_->shift + cross(turn_, m_.p - of.model_.motion[static_cast<std::size_t>(data.body)].p);
   }
-  const MarkerMotion& m = model_.markers_[k];
-  return {m.p, m.v, m.a, m.w, m.al, m.axis};
 }
-
-template <>
-Evaluator<Jet>::View Evaluator<Jet>::view(int id) const {
-  const auto k = static_cast<std::size_t>(model_.marker_index(id));
-  if (model_.marker_data_[k].contact >= 0) {
-    return contact_view(static_cast<std::size_t>(model_.marker_data_[k].contact), model_.marker_data_[k].on_i);
-  }
-  const MarkerMotion& m = model_.markers_[k];
-  const Vec no{}, dark{unknown(), unknown(), unknown()};
-  View out;
-  if (variation_ == nullptr) {
-    out = {jets(m.p, m.v, m.a),   jets(m.v, m.a, dark),   jets(m.a, dark, dark),
-           jets(m.w, m.al, dark), jets(m.al, dark, dark), {}};
-    for (std::size_t c = 0; c < 3; ++c) out.axis[c] = jets(m.axis[c], m.axis1[c], m.axis2[c]);
-    return out;
-  }
-  const int body = model_.marker_data_[k].body;
-  const bool moves = body == variation_->body;
-  const Vec turn = moves ? variation_->turn : no;
-  const Vec shift = moves ? variation_->shift + cross(turn, m.p - model_.motion[static_cast<std::size_t>(body)].p) : no;
-  const bool rates = variation_->of_rates;
-  out = {jets(m.p, rates ? no : shift, dark),
-         jets(m.v, rates ? shift : dark, dark),
-         jets(m.a, dark, dark),
-         jets(m.w, rates ? turn : dark, dark),
-         jets(m.al, dark, dark),
-         {}};
-  for (std::size_t c = 0; c < 3; ++c) out.axis[c] = jets(m.axis[c], rates ? no : cross(turn, m.axis[c]), dark);
-  return out;
+template <class T>
+Vector3<T> Evaluator<T>::View::p() const {
+  if (at_contact_) return at_contact_->p;
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.p;
+  else if (variation_ == nullptr)
+    return jets(m_.p, m_.v, m_.a);
+  else
+    return jets(m_.p, variation_->of_rates ? Vec{} : shift_, dark());
+}
+template <class T>
+Vector3<T> Evaluator<T>::View::v() const {
+  if (at_contact_) return at_contact_->v;
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.v;
+  else if (variation_ == nullptr)
+    return jets(m_.v, m_.a, dark());
+  else
+    return jets(m_.v, variation_->of_rates ? shift_ : dark(), dark());
+}
+template <class T>
+Vector3<T> Evaluator<T>::View::a() const {
+  if (at_contact_) return at_contact_->a;
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.a;
+  else
+    return jets(m_.a, dark(), dark());
+}
+template <class T>
+Vector3<T> Evaluator<T>::View::w() const {
+  if (at_contact_) return at_contact_->w;
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.w;
+  else if (variation_ == nullptr)
+    return jets(m_.w, m_.al, dark());
+  else
+    return jets(m_.w, variation_->of_rates ? turn_ : dark(), dark());
+}
+template <class T>
+Vector3<T> Evaluator<T>::View::al() const {
+  if (at_contact_) return at_contact_->al;
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.al;
+  else
+    return jets(m_.al, dark(), dark());
+}
+template <class T>
+Vector3<T> Evaluator<T>::View::axis(std::size_t k) const {
+  if (at_contact_) return at_contact_->axis[k];
+  if constexpr (std::is_same_v<T, Real>)
+    return m_.axis[k];
+  else if (variation_ == nullptr)
+    return jets(m_.axis[k], m_.axis1[k], m_.axis2[k]);
+  else
+    return jets(m_.axis[k], variation_->of_rates ? Vec{} : cross(turn_, m_.axis[k]), dark());
 }
 
 // A VARIABLE is an unknown of its own; its rate is that of its expression.
@@ -224,17 +253,17 @@ template <class T>
 T Evaluator<T>::measured(const Node& n) const {
   using std::atan2;
   const View i = view(n.ids[0]), j = view(id_or_zero(n.ids, 1));
-  const Vector3<T> r = i.p - j.p;
+  const Vector3<T> r = i.p() - j.p();
   const auto along = [&](const Vector3<T>& v, int k) {
-    return dot(v, view(id_or_zero(n.ids, 2)).axis[static_cast<std::size_t>(k)]);
+    return dot(v, view(id_or_zero(n.ids, 2)).axis(static_cast<std::size_t>(k)));
   };
   // The reference frame of derivatives is the fourth marker; the magnitudes have no axes, so their
   // frame is the third.
   const bool magnitude = n.measure == Measure::VM || n.measure == Measure::ACCM || n.measure == Measure::WDTM;
-  const auto velocity = [&](const View& l) { return i.v - j.v - cross(l.w, r); };
+  const auto velocity = [&](const View& l) { return i.v() - j.v() - cross(l.w(), r); };
   const auto from = [&](Measure first) { return static_cast<int>(n.measure) - static_cast<int>(first); };
   // Row a, column b of the axes of I in those of J, 1-based.
-  const auto R = [&](std::size_t a, std::size_t b) { return dot(j.axis[a - 1], i.axis[b - 1]); };
+  const auto R = [&](std::size_t a, std::size_t b) { return dot(j.axis(a - 1), i.axis(b - 1)); };
   using std::sqrt;
   switch (n.measure) {
     case Measure::DX:
@@ -248,13 +277,13 @@ T Evaluator<T>::measured(const Node& n) const {
     case Measure::VZ:
       return along(velocity(view(id_or_zero(n.ids, 3))), from(Measure::VX));
     case Measure::VR:
-      return dot(r, i.v - j.v) / norm(r);
+      return dot(r, i.v() - j.v()) / norm(r);
     case Measure::WX:
     case Measure::WY:
     case Measure::WZ:
-      return along(i.w - j.w, from(Measure::WX));
+      return along(i.w() - j.w(), from(Measure::WX));
     case Measure::WM:
-      return norm(i.w - j.w);
+      return norm(i.w() - j.w());
     case Measure::VM:
     case Measure::ACCX:
     case Measure::ACCY:
@@ -262,7 +291,8 @@ T Evaluator<T>::measured(const Node& n) const {
     case Measure::ACCM: {
       const View l = view(id_or_zero(n.ids, magnitude ? 2 : 3));
       if (n.measure == Measure::VM) return norm(velocity(l));
-      const Vector3<T> a = i.a - j.a - cross(l.al, r) - T(2) * cross(l.w, velocity(l)) - cross(l.w, cross(l.w, r));
+      const Vector3<T> a =
+          i.a() - j.a() - cross(l.al(), r) - T(2) * cross(l.w(), velocity(l)) - cross(l.w(), cross(l.w(), r));
       return n.measure == Measure::ACCM ? norm(a) : along(a, from(Measure::ACCX));
     }
     case Measure::WDTX:
@@ -270,7 +300,7 @@ T Evaluator<T>::measured(const Node& n) const {
     case Measure::WDTZ:
     case Measure::WDTM: {
       const View l = view(id_or_zero(n.ids, magnitude ? 2 : 3));
-      const Vector3<T> a = i.al - j.al - cross(l.w, i.w - j.w);
+      const Vector3<T> a = i.al() - j.al() - cross(l.w(), i.w() - j.w());
       return n.measure == Measure::WDTM ? norm(a) : along(a, from(Measure::WDTX));
     }
     case Measure::AX:
@@ -292,13 +322,13 @@ T Evaluator<T>::measured(const Node& n) const {
     case Measure::ROLL:
       return atan2(R(3, 2), R(3, 3));
     case Measure::INCANG: {
-      const Vector3<T> other = view(n.ids[2]).p - j.p;
+      const Vector3<T> other = view(n.ids[2]).p() - j.p();
       return atan2(norm(cross(r, other)), dot(r, other));
     }
     case Measure::UVX:
     case Measure::UVY:
     case Measure::UVZ:
-      return dot(i.axis[static_cast<std::size_t>(from(Measure::UVX))], j.axis[static_cast<std::size_t>(n.ids[2])]);
+      return dot(i.axis(static_cast<std::size_t>(from(Measure::UVX))), j.axis(static_cast<std::size_t>(n.ids[2])));
   }
   throw std::runtime_error("an expression has an unknown measure");
 }

@@ -1,6 +1,7 @@
 // Values of function expressions: numbers, or jets along the motion or along a variation of one body.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -30,9 +31,27 @@ class Evaluator {
  private:
   template <class U>
   friend class Evaluator;
-  struct View {
+  // What a marker at a point of contact does.
+  struct Seen {
     Vector3<T> p, v, a, w, al;
     std::array<Vector3<T>, 3> axis;
+  };
+  // What any marker does, each quantity made when it is asked for: most expressions want one or two.
+  class View {
+   public:
+    View(const Evaluator& of, int id);
+    [[nodiscard]] Vector3<T> p() const;
+    [[nodiscard]] Vector3<T> v() const;
+    [[nodiscard]] Vector3<T> a() const;
+    [[nodiscard]] Vector3<T> w() const;
+    [[nodiscard]] Vector3<T> al() const;
+    [[nodiscard]] Vector3<T> axis(std::size_t k) const;
+
+   private:
+    const MarkerMotion& m_;
+    std::optional<Seen> at_contact_;
+    const Variation* variation_;
+    Vec turn_, shift_;  // by the variation
   };
   [[nodiscard]] T node(const Node& n) const;
   [[nodiscard]] T measured(const Node& n) const;
@@ -42,8 +61,8 @@ class Evaluator {
   [[nodiscard]] T gap(const Node& n) const;
   [[nodiscard]] T variable(int id) const;
   [[nodiscard]] T state(int id) const;
-  [[nodiscard]] View view(int id) const;
-  [[nodiscard]] View contact_view(std::size_t contact, bool on_i) const;
+  [[nodiscard]] View view(int id) const { return View(*this, id); }
+  [[nodiscard]] Seen contact_view(std::size_t contact, bool on_i) const;
   [[nodiscard]] const LinePoint& line_point() const {
     if (line_point_ == nullptr) throw std::logic_error("no place along a beam is given");
     return *line_point_;
@@ -57,12 +76,8 @@ class Evaluator {
 };
 
 template <>
-Evaluator<Real>::View Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const;
+Evaluator<Real>::Seen Evaluator<Real>::contact_view(std::size_t contact, bool on_i) const;
 template <>
-Evaluator<Jet>::View Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const;
-template <>
-Evaluator<Real>::View Evaluator<Real>::view(int id) const;
-template <>
-Evaluator<Jet>::View Evaluator<Jet>::view(int id) const;
+Evaluator<Jet>::Seen Evaluator<Jet>::contact_view(std::size_t contact, bool on_i) const;
 
 }  // namespace dynalin::oracle

@@ -331,9 +331,9 @@ Mechanism Draw::mechanism() {
   read_gse();
   draw_general_forces();
   draw_outputs();
-  check();
+  if (!known_softenings_) check();
   draw_frictions();
-  if (!m_.frictions.empty()) check();
+  if (!known_softenings_ && !m_.frictions.empty()) check();
   draw_touches();
   draw_beam_load();
   draw_modal_forces();
@@ -341,12 +341,16 @@ Mechanism Draw::mechanism() {
 }
 
 Mechanism random_mechanism(std::uint64_t seed) {
-  const std::optional<std::uint64_t> known = accepted_attempt(seed);
-  for (std::uint64_t attempt = known.value_or(0); attempt < 2000; ++attempt) {
+  const auto titled = [&](Mechanism m) {
+    m.title = "Random mechanism, seed " + std::to_string(seed);
+    return m;
+  };
+  if (const auto known = accepted_draw(seed)) return titled(Draw(seed, *known).mechanism());
+  for (std::uint64_t attempt = 0; attempt < 2000; ++attempt) {
     try {
-      Mechanism m = Draw(seed, attempt).mechanism();
-      m.title = "Random mechanism, seed " + std::to_string(seed);
-      if (!known) remember_accepted_attempt(seed, attempt);
+      Draw draw(seed, attempt);
+      Mechanism m = titled(draw.mechanism());
+      remember_accepted_draw(seed, {attempt, draw.softenings()});
       return m;
     } catch (const std::runtime_error&) {
       // Rejected: the next draw of the same seed.

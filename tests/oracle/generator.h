@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "accepted_draws.h"
 #include "model.h"
 
 namespace dynalin::oracle {
@@ -64,7 +65,13 @@ class Draw {
         rubbing_(seed >= first_of_friction && seed < behind_friction ? static_cast<int>(seed - first_of_friction) : -1),
         must_spin_(seed >= behind_friction && seed < 360),
         may_rub_(seed % 2 == 0 || rubbing_ >= 0) {}
+  // One that was found acceptable before: it is made without another look at that.
+  Draw(std::uint64_t seed, const AcceptedDraw& known) : Draw(seed, known.attempt) {
+    known_softenings_ = known.softenings;
+  }
   [[nodiscard]] Mechanism mechanism();
+  // How many times friction was made less in it.
+  [[nodiscard]] int softenings() const { return softenings_; }
 
  private:
   // The standard distributions differ between libraries; the bits of the engine do not.
@@ -225,6 +232,8 @@ class Draw {
   int rubbing_ = -1;                   // which joint rubs in which regime, from 331 to 354
   bool must_spin_ = false;             // a flexible body as fast as it vibrates, from 355 to 359
   bool may_rub_ = false;               // every second seed
+  std::optional<int> known_softenings_;
+  int softenings_ = 0;
   Mechanism m_;
   double L_ = 1, F_ = 10;  // natural length and force
   std::vector<BodyRef> bodies_{ground};

@@ -107,8 +107,9 @@ void Draw::draw_frictions() {
     if (wanted) rub_as_wanted(f, speed);
     m_.frictions.push_back(f);
   }
-  for (int attempt = 0; !m_.frictions.empty() && nearly_jams(m_, L_); ++attempt) {
-    if (attempt == 3) m_.frictions.clear();
+  const auto too_much = [&] { return known_softenings_ ? softenings_ < *known_softenings_ : nearly_jams(m_, L_); };
+  for (; !m_.frictions.empty() && too_much(); ++softenings_) {
+    if (softenings_ == 3) m_.frictions.clear();
     for (Friction& f : m_.frictions) {
       for (double* x : {&f.mu_static, &f.mu_dynamic, &f.bristles, &f.bristle_damping, &f.viscosity, &f.force_preload,
                         &f.torque_preload})

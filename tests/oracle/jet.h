@@ -34,6 +34,9 @@ struct Jet {
 [[nodiscard]] inline Jet operator*(const Jet& a, const Jet& b) {
   return {a.v * b.v, a.d * b.v + a.v * b.d, a.dd * b.v + 2 * a.d * b.d + a.v * b.dd};
 }
+// By a number, which costs half as much as by a jet.
+[[nodiscard]] inline Jet operator*(Real s, const Jet& a) { return {s * a.v, s * a.d, s * a.dd}; }
+[[nodiscard]] inline Vector3<Jet> operator*(Real s, const Vector3<Jet>& a) { return {s * a.x, s * a.y, s * a.z}; }
 // f(x) from f, f' and f'' at x.
 [[nodiscard]] inline Jet chain(const Jet& x, Real f, Real f1, Real f2) {
   return {f, f1 * x.d, f1 * x.dd + f2 * x.d * x.d};

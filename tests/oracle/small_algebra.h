@@ -104,15 +104,30 @@ struct Mat {
 struct SeriesValue {
   Real value = 0, slope = 0;
 };
-[[nodiscard]] inline SeriesValue rotation_series(Real s, int p) {
+using SeriesCoefficients = std::array<Real, 30>;
+[[nodiscard]] constexpr SeriesCoefficients rotation_coefficients(int p) {
   Real coefficient = 1;
   for (int k = 2; k <= p; ++k) coefficient /= static_cast<Real>(k);
+  SeriesCoefficients all{};
+  int k = 0;
+  for (Real& c : all) {
+    c = coefficient;
+    coefficient /= -static_cast<Real>((2 * k + p + 1) * (2 * k + p + 2));
+    ++k;
+  }
+  return all;
+}
+inline constexpr std::array<SeriesCoefficients, 3> rotation_coefficient = {
+    rotation_coefficients(1), rotation_coefficients(2), rotation_coefficients(3)};
+[[nodiscard]] inline SeriesValue rotation_series(Real s, int p) {
+  const SeriesCoefficients& c = rotation_coefficient[static_cast<std::size_t>(p - 1)];
   SeriesValue sum;
   Real power = 1, power_before = 0;
-  for (int k = 0; k < 30; ++k) {
-    sum.value += coefficient * power;
-    sum.slope += static_cast<Real>(k) * coefficient * power_before;
-    coefficient /= -static_cast<Real>((2 * k + p + 1) * (2 * k + p + 2));
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Real term = c[k] * power, slope = static_cast<Real>(k) * c[k] * power_before;
+    sum.value += term, sum.slope += slope;
+    // Far behind all digits, and later terms are smaller yet.
+    if (k > 0 && std::fabs(term) < 1e-30L && std::fabs(slope) < 1e-30L) break;
     power_before = power;
     power *= s;
   }
@@ -179,6 +194,8 @@ class Lu {
       for (std::size_t j = 0; j < n; ++j) lu_(i, j) *= scale_[i];
     }
     for (std::size_t k = 0; k < n; ++k) eliminate(k);
+    below_ = entries([](std::size_t i, std::size_t j) { return j < i; });
+    above_ = entries([](std::size_t i, std::size_t j) { return j > i; });
   }
 
   [[nodiscard]] std::vector<Real> solve(const std::vector<Real>& b) const {
@@ -186,12 +203,15 @@ class Lu {
     std::vector<Real> x(n);
     for (std::size_t i = 0; i < n; ++i) {
       Real sum = b[order_[i]] * scale_[order_[i]];
-      for (std::size_t j = 0; j < i; ++j) sum -= lu_(i, j) * x[j];
+      for (std::size_t e = below_.start[i]; e < below_.start[i + 1]; ++e)
+        sum -= below_.entry[e].value * x[below_.entry[e].column];
       x[i] = sum;
     }
     for (std::size_t i = n; i-- > 0;) {
-      for (std::size_t j = i + 1; j < n; ++j) x[i] -= lu_(i, j) * x[j];
-      x[i] /= lu_(i, i);
+      Real sum = x[i];
+      for (std::size_t e = above_.start[i]; e < above_.start[i + 1]; ++e)
+        sum -= above_.entry[e].value * x[above_.entry[e].column];
+      x[i] = sum / lu_(i, i);
     }
     return x;
   }
@@ -209,16 +229,41 @@ class Lu {
       lu_.swap_rows(pivot, k);
       std::swap(order_[pivot], order_[k]);
     }
+    std::vector<std::size_t> used;
+    for (std::size_t j = k + 1; j < n; ++j) {
+      if (lu_(k, j) != 0) used.push_back(j);
+    }
     for (std::size_t i = k + 1; i < n; ++i) {
+      if (lu_(i, k) == 0) continue;
       const Real factor = lu_(i, k) / lu_(k, k);
       lu_(i, k) = factor;
-      if (factor == 0) continue;
-      for (std::size_t j = k + 1; j < n; ++j) lu_(i, j) -= factor * lu_(k, j);
+      for (const std::size_t j : used) lu_(i, j) -= factor * lu_(k, j);
     }
     ready_ = k + 1 == n;
   }
+  // Most factors are zero; one set of them serves many right-hand sides.
+  struct Entries {
+    struct One {
+      std::size_t column;
+      Real value;
+    };
+    std::vector<One> entry;
+    std::vector<std::size_t> start{0};  // of each row, and the end
+  };
+  template <class Of>
+  [[nodiscard]] Entries entries(Of&& is_of) const {
+    Entries out;
+    for (std::size_t i = 0; i < lu_.rows(); ++i) {
+      for (std::size_t j = 0; j < lu_.columns(); ++j) {
+        if (is_of(i, j) && lu_(i, j) != 0) out.entry.push_back({j, lu_(i, j)});
+      }
+      out.start.push_back(out.entry.size());
+    }
+    return out;
+  }
 
   Dense lu_;
+  Entries below_, above_;
   std::vector<std::size_t> order_;
   std::vector<Real> scale_;
   bool ready_ = false;

@@ -418,6 +418,8 @@ const Family families[] = {
      any},
 };
 
+void PrintTo(const Family& f, std::ostream* out) { *out << f.name; }
+
 class Defective : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Defective, every_eigenvalue_is_within_its_bound) {

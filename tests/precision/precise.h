@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_complex.hpp>
 #include <boost/multiprecision/eigen.hpp>
@@ -25,8 +26,9 @@ struct Value {
   Real re, im;
 };
 
-// Solves F a = −G by elimination with row pivoting; rows that are zero in a column cost nothing. The coefficients of
-// the equations go through `as` first.
+// Solves F a = −G by elimination. Of the columns left that with the fewest entries is next, and of its rows with no
+// small one the shortest: most entries are zero and stay so, and zeros cost nothing. The coefficients of the equations
+// go through `as` first.
 template <class Number = Real, class As = std::identity>
 Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const PerturbationEquations& p, As&& as = {}) {
   using std::abs;
@@ -36,10 +38,24 @@ Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> state_matrix(const Perturb
   Dense M = Dense::Zero(N, N);
   for_each_entry(S, [&](std::int32_t r, std::int32_t c, double v) { M(r, c) += Number(as(v)); });
   std::vector<Eigen::Index> used;
+  const auto entries_of_row = [&](Eigen::Index r, Eigen::Index from) {
+    return (M.row(r).tail(N - from).array() != 0).count();
+  };
   for (Eigen::Index c = 0; c < m; ++c) {
+    Eigen::Index shortest = c, fewest = N + 1;
+    for (Eigen::Index k = c; k < m; ++k) {
+      const Eigen::Index entries = (M.col(k).segment(c, m - c).array() != 0).count();
+      if (entries < fewest) shortest = k, fewest = entries;
+    }
+    if (shortest != c) M.col(c).swap(M.col(shortest));
+    Number largest = 0;
+    for (Eigen::Index r = c; r < m; ++r) largest = std::max<Number>(largest, abs(M(r, c)));
     Eigen::Index pivot = c;
+    fewest = N + 1;
     for (Eigen::Index r = c; r < m; ++r) {
-      if (abs(M(r, c)) > abs(M(pivot, c))) pivot = r;
+      if (M(r, c) == 0 || abs(M(r, c)) < largest / 8) continue;
+      const Eigen::Index entries = entries_of_row(r, c);
+      if (entries < fewest) pivot = r, fewest = entries;
     }
     if (pivot != c) M.row(c).swap(M.row(pivot));
     used.clear();

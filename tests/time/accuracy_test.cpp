@@ -16,6 +16,8 @@ struct Promise {
 const Promise promises[] = {{pendulum, 2},          {tumbling_body, 250}, {heavy_top, 0.5},
                             {spatial_four_bar, 15}, {slider_crank, 3},    {gyroscope, 0.5}};
 
+void PrintTo(const Promise& p, std::ostream* out) { *out << p.mechanism().name; }
+
 class Accuracy : public ::testing::TestWithParam<Promise> {};
 
 double largest_error(const Conservative& mechanism, const Course& course) {

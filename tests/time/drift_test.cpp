@@ -14,6 +14,8 @@ struct Bound {
   double momentum = 0;                // their largest change, as a part of the largest
 };
 
+void PrintTo(const Bound& b, std::ostream* out) { *out << b.mechanism().name; }
+
 class Drift : public ::testing::TestWithParam<Bound> {};
 
 TEST_P(Drift, over_many_periods_is_small) {

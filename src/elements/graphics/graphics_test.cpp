@@ -240,6 +240,7 @@ struct Wrong {
   const char* statement;
   const char* problem;  // code and column
 };
+void PrintTo(const Wrong& w, std::ostream* out) { *out << w.statement; }
 class WrongGraphics : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongGraphics, is_an_error_at_its_place) {
