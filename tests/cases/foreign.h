@@ -13,11 +13,11 @@ namespace dynalin::cases {
 class Foreign : public Cases {
  protected:
   // The dataset `name`.adm, its commands `name`.acf, and what else is called so.
-  RunResult run_foreign(const std::string& name) const {
+  RunResult run_foreign(const std::string& name, SessionOptions options = {}) const {
     for (const auto& file : std::filesystem::directory_iterator(foreign_datasets())) {
       if (file.path().stem() == name) std::filesystem::copy(file.path(), folder_ / file.path().filename());
     }
-    return run_file(name + ".acf");
+    return run_file(name + ".acf", std::move(options));
   }
   static std::vector<const nlohmann::json*> all_with(const RunResult& r, const char* what) {
     std::vector<const nlohmann::json*> found;

@@ -13,5 +13,6 @@ inline std::filesystem::path element_sources() { return source_tree() / "src/ele
 inline std::filesystem::path nastran_decks() { return source_tree() / "tests/nastran"; }
 // Datasets as other programs and people write them, with their command files.
 inline std::filesystem::path foreign_datasets() { return source_tree() / "tests/foreign"; }
+std::filesystem::path foreign_routines();  // the folder of their compiled routines
 
 }  // namespace dynalin
