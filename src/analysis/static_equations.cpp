@@ -17,10 +17,42 @@ StaticEquations::StaticEquations(const System& system)
   for (const DifferentialState& z : system.layout().states) held_.push_back(z.held_in_statics);
 }
 
+// Rows on velocities hold displacements as they hold velocities: what is at rest there pushes with λ Ψ_q′. Where one
+// asks for the same as rows on positions do, these hold it.
+Partition StaticEquations::partition_at_rest() const {
+  const auto on_velocities = [&](std::int32_t k) { return rows_.level(k) == RowLevel::velocity; };
+  Partition of_positions = system_.partition(rows_, RowLevel::position);
+  std::vector<bool> left_out(static_cast<std::size_t>(rows_.size()), false);
+  bool any = false;
+  for (std::int32_t k = 0; k < rows_.size(); ++k) any = any || on_velocities(k);
+  if (!any) return of_positions;
+  const auto keeps_positions = [&](const Partition& p) {
+    for (std::size_t k = 0; k < of_positions.active.size(); ++k)
+      if (of_positions.active[k] && !p.active[k]) return false;
+    return true;
+  };
+  Partition all = system_.partition(rows_, RowLevel::velocity);
+  if (keeps_positions(all)) return all;
+  Partition p = of_positions;
+  for (std::int32_t k = 0; k < rows_.size(); ++k) left_out[static_cast<std::size_t>(k)] = on_velocities(k);
+  for (std::int32_t k = 0; k < rows_.size(); ++k) {
+    if (!on_velocities(k)) continue;
+    const auto row = static_cast<std::size_t>(k);
+    left_out[row] = false;
+    Partition with = system_.partition(rows_, RowLevel::velocity, left_out);
+    if (with.active[row] && keeps_positions(with) && with.independent.size() < p.independent.size()) {
+      p = std::move(with);
+    } else {
+      left_out[row] = true;
+    }
+  }
+  return p;
+}
+
 void StaticEquations::evaluate(const OperatingPoint& op, Partials wanted) {
   const Motion motion = system_.motion(op);
   system_.constraints(motion, rows_);
-  if (wanted == Partials::yes || part_.active.empty()) part_ = system_.partition(rows_, RowLevel::position);
+  if (wanted == Partials::yes || part_.active.empty()) part_ = partition_at_rest();
   if (wanted == Partials::yes) {
     using P = PartialBy;
     if (motion_)
@@ -44,7 +76,8 @@ void StaticEquations::evaluate(const OperatingPoint& op, Partials wanted) {
     if (held_[k]) residual_(augmented_.state(static_cast<std::int32_t>(k))) = 0;
   }
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
-    if (part_.active[static_cast<std::size_t>(k)]) residual_(augmented_.lambda(k)) = rows_.along_motion(k).value;
+    if (part_.active[static_cast<std::size_t>(k)] && rows_.level(k) == RowLevel::position)
+      residual_(augmented_.lambda(k)) = rows_.along_motion(k).value;
   }
   measure_forces(op);
   if (wanted == Partials::no) return;

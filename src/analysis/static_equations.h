@@ -104,6 +104,7 @@ class StaticEquations {
   // 1 for a force, 1/length for a moment.
   double force_unit(std::int32_t k) const { return system_.coordinate_scale(k) / system_.length(); }
   double unit(Eigen::Index k, double force) const;
+  Partition partition_at_rest() const;
   void measure_stiffness();
   void measure_forces(const OperatingPoint&);
   void measure_rounding(const OperatingPoint&);

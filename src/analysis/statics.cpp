@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "analysis/assembly_moves.h"
 #include "analysis/equilibrium_search.h"
+#include "analysis/row_sizes.h"
 
 namespace dynalin {
 
@@ -53,6 +57,35 @@ std::string too_far_out(const System& system, const OperatingPoint& op) {
   return {};
 }
 
+// Whose rows on velocities hold what is at rest, and whose ask for a velocity.
+struct VelocityRowsAtRest {
+  std::vector<const ElementLabel*> holding, moving;
+};
+VelocityRowsAtRest velocity_rows(const System& system, const OperatingPoint& at_rest) {
+  constexpr double none = 1e-9;  // of the model's length in a unit of time
+  VelocityRowsAtRest of;
+  ConstraintRows rows;
+  rows.resize(system.layout());
+  system.constraints(system.motion(at_rest), rows);
+  for (std::int32_t k = 0; k < rows.size(); ++k) {
+    if (rows.level(k) != RowLevel::velocity) continue;
+    const ElementLabel* owner = system.layout().rows[static_cast<std::size_t>(k)].owner;
+    const bool moves = std::abs(rows.along_motion(k).value) > none * row_scale(system, rows.row(k));
+    (moves ? of.moving : of.holding).push_back(owner);
+  }
+  return of;
+}
+
+Failure contradicted_rest(std::span<const ElementLabel* const> moving) {
+  Failure f{"static analysis",
+            fmt::format("constraints that ask for a velocity contradict rest: DEACTIVATE/{}, ID={} takes one out",
+                        moving.front()->statement, moving.front()->id),
+            {},
+            "motion-at-rest"};
+  for (const ElementLabel* label : moving) f.details.push_back(label->full_text());
+  return f;
+}
+
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -81,6 +114,15 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   // Between points of a simulation nothing is drawn.
   if (!in_course) warn_of_moves(system, op, *assembled, findings.warnings);
   op = std::move(*assembled);
+  const VelocityRowsAtRest on_velocities = velocity_rows(system, op);
+  if (!on_velocities.moving.empty()) return tl::unexpected(contradicted_rest(on_velocities.moving));
+  for (const ElementLabel* label : on_velocities.holding) {
+    if (in_course) break;
+    findings.warnings.warning("rest-by-rolling", label->at,
+                              fmt::format("{} holds velocities: where the model rests depends on where the search for "
+                                          "it begins, as it does where a wheel rolls there",
+                                          label->full_text()));
+  }
   if (!in_course) op.mode = AnalysisMode::statics;
 
   EquilibriumSearch search(system, std::move(op), options, report, findings);

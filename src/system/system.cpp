@@ -302,8 +302,11 @@ SparseRow scaled_row(const System& system, std::span<const ConstraintRows::Entry
   return row;
 }
 
-Partition System::partition(const ConstraintRows& rows, RowLevel last) const {
-  const auto counts = [&](std::int32_t k) { return last == RowLevel::velocity || rows.level(k) == RowLevel::position; };
+Partition System::partition(const ConstraintRows& rows, RowLevel last, const std::vector<bool>& left_out) const {
+  const auto counts = [&](std::int32_t k) {
+    if (!left_out.empty() && left_out[static_cast<std::size_t>(k)]) return false;
+    return last == RowLevel::velocity || rows.level(k) == RowLevel::position;
+  };
   std::vector<SparseRow> scaled(static_cast<std::size_t>(rows.size()));
   for (std::int32_t k = 0; k < rows.size(); ++k) {
     if (counts(k)) scaled[static_cast<std::size_t>(k)] = scaled_row(*this, rows.row(k));

@@ -99,8 +99,8 @@ class System {
   // Scale of a coordinate: the model length for translations, 1 for rotations, and what moves as far for the others.
   double coordinate_scale(std::int32_t coordinate) const { return scale_[static_cast<std::size_t>(coordinate)]; }
   // Elimination of the rows up to a level, the position rows or all rows on velocities, with columns in the default
-  // preference.
-  Partition partition(const ConstraintRows&, RowLevel last) const;
+  // preference. Rows that are left out count as redundant ones do, but are not among them.
+  Partition partition(const ConstraintRows&, RowLevel last, const std::vector<bool>& left_out = {}) const;
   // Coordinates in the order in which they are wanted as states: by element id, rotations first, followers last.
   const std::vector<std::int32_t>& preference() const { return preference_; }
 

@@ -44,6 +44,7 @@ const std::vector<Failing>& table() {
        "SIMULATE/INITIAL\n"},
       {"no-equilibrium", bar + "ACCGRAV/KGRAV=-10\nEND\n", "SIMULATE/STATICS\n"},
       {"motion-at-rest", sprung + "MOTION/1, JOINT=1, VELOCITY, FUNCTION=2\nEND\n", "SIMULATE/STATICS\n"},
+      {"motion-at-rest", sprung + "GCON/1, FUNCTION=WZ(20,1)-0.5*(TIME+1)\nEND\n", "SIMULATE/STATICS\n"},
       {"freedoms-in-kinematics", hinge + "END\n", "SIMULATE/KINEMATICS, END=1, STEPS=2\n"},
       {"end-of-simulation", hinge + "END\n",
        "SIMULATE/DYNAMICS, END=0.1, STEPS=2\nSIMULATE/DYNAMICS, END=0.1, STEPS=2\n"},

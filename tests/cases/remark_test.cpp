@@ -44,6 +44,7 @@ const std::vector<Remark>& table() {
        SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
                     "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
+      {"rest-by-rolling", 8, SLIDER(BODY) "GCON/1, FUNCTION=VZ(20)\nEND\n", "SIMULATE/STATICS\n"},
       {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
        "LINEAR/EIGENSOL\n"},
       {"kink", 8, SLIDER(BODY) "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=-ABS(DZ(20)-1)\nEND\n",

@@ -1,5 +1,6 @@
 // Mechanisms with velocity constraints: they roll or skate, and have more positions than rates.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -235,6 +236,78 @@ TEST_F(Rolling, a_zero_beside_those_of_the_structure_has_a_bound) {
   }
   for (std::size_t k = 0; k < 6; ++k) EXPECT_LE(std::abs(modes[k].at("real_hz").get<double>()), 1e-12);
   EXPECT_NEAR(modes[6].at("imag_hz"), lean, 1e-13);
+}
+
+// A wheel on a straight way between springs, one on its place and one on its turn: written on velocities it rests where
+// it does written on positions, and the multiplier is the force at the contact.
+class RollingRest : public Rolling {
+ protected:
+  RunResult rest(const std::string& constraint,
+                 const std::string& commands = "SIMULATE/STATICS\nLINEAR/EIGENSOL\n") const {
+    RunResult r = run(
+        "Wheel\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/11, QP=0,1,0\nMARKER/12, QP=0,1,0, REULER=0,90D,0\n"
+        "MARKER/19, FLOATING\nPART/2, MASS=1, CM=20, IP=1,1,1, QG=0,1,0\nMARKER/20\n"
+        "JOINT/1, PLANAR, I=20, J=11\nJPRIM/1, INPLANE, I=20, J=12\nVFORCE/1, I=20, JFLOAT=19, RM=1, "
+        "FX=3-DX(20,11)\\FY=0\\FZ=0\nSFORCE/1, ROTATION, I=20, J=11, FUNCTION=-2*AZ(20,11)\n" +
+            constraint + "END\n",
+        commands);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r;
+  }
+  static double place(const RunResult& r) {
+    return r.result(0).at("operating_point").at("bodies").at(0).at("position").at(0);
+  }
+};
+
+TEST_F(RollingRest, is_that_of_the_constraint_on_positions) {
+  const RunResult by_velocity = rest("GCON/1, FUNCTION=VX(20)+WZ(20)\n"),
+                  by_position = rest("GCON/1, FUNCTION=DX(20)+AZ(20,11)\n");
+  // 3 − x = 2 x
+  EXPECT_NEAR(place(by_position), 1, 1e-12);
+  EXPECT_NEAR(place(by_velocity), 1, 1e-12);
+  EXPECT_THAT(by_velocity.err, ::testing::HasSubstr("[rest-by-rolling]"));
+  EXPECT_THAT(by_position.err, ::testing::Not(::testing::HasSubstr("[rest-by-rolling]")));
+  // (m + J) x″ = −3 x; on velocities a zero stands beside.
+  const double hz = std::sqrt(1.5) / (2 * std::numbers::pi);
+  EXPECT_NEAR(by_position.eigenvalues(1).back().imag(), hz, 1e-12);
+  EXPECT_NEAR(by_velocity.eigenvalues(1).back().imag(), hz, 1e-12);
+  EXPECT_EQ(by_velocity.eigenvalues(1).front(), 0.0);
+  for (const RunResult* r : {&by_velocity, &by_position}) {
+    for (const auto& c : r->result(0).at("operating_point").at("constraints")) {
+      if (c.at("element") == "GCON/1") {
+        EXPECT_NEAR(std::abs(c.at("multiplier").get<double>()), 2, 1e-12) << c;
+      }
+    }
+  }
+}
+
+// What says the same as rows on positions is held by these.
+TEST_F(RollingRest, is_not_held_twice) {
+  EXPECT_NEAR(place(rest("GCON/1, FUNCTION=DX(20)+AZ(20,11)\nGCON/2, FUNCTION=VX(20)+WZ(20)\n")), 1, 1e-12);
+  EXPECT_NEAR(place(rest("GCON/1, FUNCTION=VX(20)+WZ(20)\nGCON/2, FUNCTION=2*VX(20)+2*WZ(20)\n"
+                         "GCON/3, FUNCTION=DX(20)+AZ(20,11)\n")),
+              1, 1e-12);
+}
+
+// A friction gear: nothing holds either wheel by itself.
+TEST_F(Rolling, rests_where_forces_balance_through_the_contact) {
+  const RunResult r =
+      run("Gear\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=1,0,0\nPART/2, MASS=1, CM=20, "
+          "IP=1,1,1\nMARKER/20\n"
+          "PART/3, MASS=1, CM=30, IP=1,1,1, QG=1,0,0\nMARKER/30\nJOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, "
+          "I=30, J=2\n"
+          "GCON/1, FUNCTION=WZ(20,1)-2*WZ(30,2)\nSFORCE/1, ROTATION, I=20, J=1, FUNCTION=3\n"
+          "SFORCE/2, ROTATION, I=30, J=2, FUNCTION=-20*AZ(30,2)\nREQUEST/1, F2=AZ(30,2)\\F3=AZ(20,1)\nEND\n",
+          "SIMULATE/STATICS\nLINEAR/EIGENSOL\nSIMULATE/DYNAMICS, END=3, STEPS=3\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto angle = [&](std::size_t result, std::size_t body) {
+    const auto& x = r.result(result).at("operating_point").at("bodies").at(body).at("axes").at(0);
+    return std::atan2(x.at(1).get<double>(), x.at(0).get<double>());
+  };
+  EXPECT_NEAR(angle(0, 1), 0.3, 1e-12);
+  EXPECT_NEAR(angle(0, 0), 0.6, 1e-12);
+  // (4 + 1) α″ = −20 α
+  EXPECT_NEAR(r.eigenvalues(1).back().imag(), 2 / (2 * std::numbers::pi), 1e-12);
 }
 
 }  // namespace
