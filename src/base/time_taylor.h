@@ -16,6 +16,36 @@
 namespace dynalin {
 
 template <class T>
+struct TimeTaylor;
+
+namespace detail {
+template <class T>
+TimeTaylor<T> product(const TimeTaylor<T>& a, const TimeTaylor<T>& b) {
+  return {a.value * b.value, a.rate * b.value + a.value * b.rate,
+          a.acceleration * b.value + 2.0 * (a.rate * b.rate) + a.value * b.acceleration};
+}
+// The same operations in the same order, each partial in one pass: most of the time of variations goes into products,
+// and most of theirs into keeping what stands between.
+template <std::size_t N>
+TimeTaylor<Dual<N>> product(const TimeTaylor<Dual<N>>& a, const TimeTaylor<Dual<N>>& b) {
+  const double a0 = a.value.value, a1 = a.rate.value, a2 = a.acceleration.value;
+  const double b0 = b.value.value, b1 = b.rate.value, b2 = b.acceleration.value;
+  TimeTaylor<Dual<N>> r;
+  r.value.value = a0 * b0;
+  r.rate.value = a1 * b0 + a0 * b1;
+  r.acceleration.value = a2 * b0 + 2.0 * (a1 * b1) + a0 * b2;
+  for (std::size_t k = 0; k < N; ++k) {
+    const double p0 = a.value.partial[k], p1 = a.rate.partial[k], p2 = a.acceleration.partial[k];
+    const double q0 = b.value.partial[k], q1 = b.rate.partial[k], q2 = b.acceleration.partial[k];
+    r.value.partial[k] = p0 * b0 + a0 * q0;
+    r.rate.partial[k] = (p1 * b0 + a1 * q0) + (p0 * b1 + a0 * q1);
+    r.acceleration.partial[k] = (p2 * b0 + a2 * q0) + 2.0 * (p1 * b1 + a1 * q1) + (p0 * b2 + a0 * q2);
+  }
+  return r;
+}
+}  // namespace detail
+
+template <class T>
 struct TimeTaylor {
   T value{};
   T rate{};
@@ -55,10 +85,7 @@ struct TimeTaylor {
   friend TimeTaylor operator*(TimeTaylor a, double b) { return a *= b; }
   friend TimeTaylor operator*(double a, TimeTaylor b) { return b *= a; }
   friend TimeTaylor operator/(TimeTaylor a, double b) { return a *= 1.0 / b; }
-  friend TimeTaylor operator*(const TimeTaylor& a, const TimeTaylor& b) {
-    return {a.value * b.value, a.rate * b.value + a.value * b.rate,
-            a.acceleration * b.value + 2.0 * (a.rate * b.rate) + a.value * b.acceleration};
-  }
+  friend TimeTaylor operator*(const TimeTaylor& a, const TimeTaylor& b) { return detail::product(a, b); }
   friend TimeTaylor operator/(const TimeTaylor& a, const TimeTaylor& b) {
     const T inverse = 1.0 / b.value;
     const T v = a.value * inverse;

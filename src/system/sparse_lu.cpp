@@ -116,31 +116,45 @@ struct BalancingUnits {
 enum class Balance : std::uint8_t { largest, mean };
 BalancingUnits balancing_units(const ColumnMatrix& m, Balance balance) {
   const int sweeps = balance == Balance::largest ? 12 : 40;
-  BalancingUnits u{Eigen::VectorXd::Ones(m.rows), Eigen::VectorXd::Ones(m.columns)};
-  // Of the entries of a row or a column, as powers of two.
+  // Units and sizes of entries are added as powers of two: a logarithm of each entry does for all sweeps.
+  struct Entry {
+    std::int32_t row, column;
+    double power;
+  };
+  std::vector<Entry> entries;
+  for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
+    const double power = std::log2(std::abs(v));
+    if (std::isfinite(power)) entries.push_back({r, c, power});
+  });
+  Eigen::VectorXd of_row = Eigen::VectorXd::Zero(m.rows), of_column = Eigen::VectorXd::Zero(m.columns);
+  // Of the entries of a row or a column.
   struct Sizes {
     double largest = -std::numeric_limits<double>::infinity(), sum = 0;
     int count = 0;
     void add(double power) { largest = std::max(largest, power), sum += power, ++count; }
   };
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  bool changed = true;
+  const auto adjust = [&](Eigen::VectorXd& unit, const std::vector<Sizes>& sizes) {
+    for (Eigen::Index k = 0; k < unit.size(); ++k) {
+      const Sizes& s = sizes[static_cast<std::size_t>(k)];
+      if (s.count == 0) continue;
+      const double less = std::round(0.5 * (balance == Balance::largest ? s.largest : s.sum / s.count));
+      unit(k) -= less;
+      changed = changed || less != 0;
+    }
+  };
+  for (int sweep = 0; sweep < sweeps && changed; ++sweep) {
     std::vector<Sizes> row(static_cast<std::size_t>(m.rows)), column(static_cast<std::size_t>(m.columns));
-    for_each_entry(m, [&](std::int32_t r, std::int32_t c, double v) {
-      const double power = std::log2(std::abs(v * u.row(r) * u.column(c)));
-      if (!std::isfinite(power)) return;
-      row[static_cast<std::size_t>(r)].add(power), column[static_cast<std::size_t>(c)].add(power);
-    });
-    const auto adjust = [&](Eigen::VectorXd& unit, const std::vector<Sizes>& sizes) {
-      for (Eigen::Index k = 0; k < unit.size(); ++k) {
-        const Sizes& s = sizes[static_cast<std::size_t>(k)];
-        if (s.count > 0)
-          unit(k) *= std::exp2(-std::round(0.5 * (balance == Balance::largest ? s.largest : s.sum / s.count)));
-      }
-    };
-    adjust(u.row, row);
-    adjust(u.column, column);
+    for (const Entry& e : entries) {
+      const double power = e.power + of_row(e.row) + of_column(e.column);
+      row[static_cast<std::size_t>(e.row)].add(power), column[static_cast<std::size_t>(e.column)].add(power);
+    }
+    changed = false;
+    adjust(of_row, row);
+    adjust(of_column, column);
   }
-  return u;
+  const auto powers = [](double exponent) { return std::exp2(exponent); };
+  return {of_row.unaryExpr(powers), of_column.unaryExpr(powers)};
 }
 
 // The entries of `m` that stand in a pattern, zero where there are none; nothing if others are not zero.
