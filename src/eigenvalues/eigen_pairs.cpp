@@ -14,7 +14,7 @@ namespace dynalin {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double largest = 1e150;  // its square is a number
+constexpr double squarable = 1e150;  // its square is a number
 
 // Of [N⁻¹ head; tail], where a tiny value beside long chains of zeros makes N⁻¹ too large for double.
 Eigen::VectorXcd direction(const Eigen::MatrixXcd& N, const Eigen::VectorXcd& column) {
@@ -183,7 +183,7 @@ void map_to_states(const ZeroModes& zero, EigenPairs& pairs) {
         continue;
       }
       const Eigen::VectorXcd head = N.triangularView<Eigen::Upper>().solve(full.col(k).head(z));
-      if (head.norm() < largest) {
+      if (head.norm() < squarable) {
         full.col(k).head(z) = head;
       } else {
         full.col(k) = direction(N, full.col(k));

@@ -7,11 +7,11 @@
 namespace dynalin {
 
 namespace {
-constexpr double largest = 1e100;  // what a search for roots can still multiply
+constexpr double farthest = 1e100;  // what a search for roots can still multiply
 }
 
 void SwitchList::add(double switching, bool does_count) {
-  value.push_back(std::isnan(switching) ? 1.0 : std::clamp(switching, -largest, largest));
+  value.push_back(std::isnan(switching) ? 1.0 : std::clamp(switching, -farthest, farthest));
   counts.push_back(does_count && !std::isnan(switching));
   any_undefined = any_undefined || std::isnan(switching);
 }
