@@ -11,6 +11,7 @@ template void HouseholderQR<MatrixXcd>::computeInPlace();
 template void ColPivHouseholderQR<MatrixXcd>::computeInPlace();
 template void ColPivHouseholderQR<MatrixXcd>::_solve_impl(const VectorXcd&, VectorXcd&) const;
 template void ColPivHouseholderQR<MatrixXcd>::_solve_impl(const MatrixXcd&, MatrixXcd&) const;
+template void CompleteOrthogonalDecomposition<MatrixXcd>::computeInPlace();
 template JacobiSVD<MatrixXcd>& JacobiSVD<MatrixXcd>::compute(const MatrixXcd&, unsigned int);
 template ComplexEigenSolver<MatrixXcd>& ComplexEigenSolver<MatrixXcd>::compute(const EigenBase<MatrixXcd>&, bool);
 

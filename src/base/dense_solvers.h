@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include "base/product_kernels.h"
+
 namespace Eigen {
 
 extern template void PartialPivLU<MatrixXd>::compute();
@@ -39,6 +41,7 @@ extern template void HouseholderQR<MatrixXcd>::computeInPlace();
 extern template void ColPivHouseholderQR<MatrixXcd>::computeInPlace();
 extern template void ColPivHouseholderQR<MatrixXcd>::_solve_impl(const VectorXcd&, VectorXcd&) const;
 extern template void ColPivHouseholderQR<MatrixXcd>::_solve_impl(const MatrixXcd&, MatrixXcd&) const;
+extern template void CompleteOrthogonalDecomposition<MatrixXcd>::computeInPlace();
 extern template JacobiSVD<MatrixXcd>& JacobiSVD<MatrixXcd>::compute(const MatrixXcd&, unsigned int);
 extern template ComplexEigenSolver<MatrixXcd>& ComplexEigenSolver<MatrixXcd>::compute(const EigenBase<MatrixXcd>&,
                                                                                       bool);

@@ -30,11 +30,11 @@ constexpr auto arc_tangent = []<class T>(const T& x) {
   using std::atan;
   return atan(x);
 };
-constexpr auto cosine = []<class T>(const T& x) {
+constexpr auto cosine_of = []<class T>(const T& x) {
   using std::cos;
   return cos(x);
 };
-constexpr auto sine = []<class T>(const T& x) {
+constexpr auto sine_of = []<class T>(const T& x) {
   using std::sin;
   return sin(x);
 };
@@ -115,7 +115,7 @@ void difference_switches(std::span<const double> a, SwitchList& out) { out.add(a
 
 // MAX(a, b, …), MIN(a, b, …): derivative of the one selected, of the first on a tie. NaN wins, to
 // be noticed.
-constexpr auto largest = []<class T>(std::span<const T> a) {
+constexpr auto largest_of = []<class T>(std::span<const T> a) {
   std::size_t selected = 0;
   for (std::size_t k = 1; k < a.size() && !std::isnan(value_of(a[selected])); ++k) {
     if (!(value_of(a[k]) <= value_of(a[selected]))) selected = k;
@@ -199,8 +199,8 @@ constexpr std::array elementary_table = {
                                "note the order: y comes first"},
                               angle_of_point),
                   angle_switches),
-    function<1>("COS", {"a", "cosine", "1", "a  [rad]; write COS(30D) for degrees"}, cosine),
-    function<1>("SIN", {"a", "sine", "1", "a  [rad]; write SIN(30D) for degrees"}, sine),
+    function<1>("COS", {"a", "cosine", "1", "a  [rad]; write COS(30D) for degrees"}, cosine_of),
+    function<1>("SIN", {"a", "sine", "1", "a  [rad]; write SIN(30D) for degrees"}, sine_of),
     function<1>("TAN", {"a", "tangent", "1", "a  [rad]; write TAN(30D) for degrees"}, tangent),
     function<1>("COSH", {"a", "hyperbolic cosine", "1", ""}, hyperbolic_cosine),
     function<1>("SINH", {"a", "hyperbolic sine", "1", ""}, hyperbolic_sine),
@@ -221,8 +221,8 @@ constexpr std::array elementary_table = {
     kinked(function<2>("DIM", {"a, b", "a − b where that is positive, else 0", "as a, b", ""}, positive_difference,
                        defined_everywhere, ZeroPartial::flat),
            difference_switches),
-    kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments, largest,
-                         ZeroPartial::flat),
+    kinked(list_function("MAX", {"a, b …", "the largest", "as a, b", "two values or more"}, 2, most_arguments,
+                         largest_of, ZeroPartial::flat),
            largest_switches),
     kinked(list_function("MIN", {"a, b …", "the smallest", "as a, b", "two values or more"}, 2, most_arguments,
                          smallest, ZeroPartial::flat),

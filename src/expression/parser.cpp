@@ -22,8 +22,9 @@ int precedence(std::string_view sign) {
   return sign == "**" ? power_precedence : product_precedence;
 }
 
-ExpressionNode::Kind operation_kind(std::string_view sign) {
-  using Kind = ExpressionNode::Kind;
+using Kind = ExpressionNode::Kind;
+
+Kind operation_kind(std::string_view sign) {
   if (sign == "+") return Kind::add;
   if (sign == "-") return Kind::subtract;
   return sign == "/" ? Kind::divide : Kind::multiply;

@@ -13,6 +13,8 @@ namespace dynalin {
 
 namespace {
 
+using Kind = ExpressionNode::Kind;
+
 constexpr std::array<std::array<std::size_t, 3>, 12> sequences = {{{0, 1, 2},
                                                                    {1, 2, 0},
                                                                    {2, 0, 1},
@@ -56,7 +58,6 @@ class Cosines {
   }
 
   Operand euler_parameter(std::int32_t which) const {
-    using Kind = ExpressionNode::Kind;
     const auto sum = [&](const Operand& p, const Operand& q) { return builder_.binary(Kind::add, p, q); };
     const Operand trace = sum(sum(entry(0, 0), entry(1, 1)), entry(2, 2));
     const Operand twice_e0 = call("SQRT", {sum(trace, builder_.constant(1.0, at_))});

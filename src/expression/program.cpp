@@ -25,7 +25,7 @@ S call(const Function& function, std::span<const std::int32_t> operands, const s
   return function(std::span<const S>(arguments.data(), operands.size()));
 }
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -132,7 +132,7 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
     });
     if (!infinite || is_differentiable(workspace)) continue;
     visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
-      if (!std::isfinite(value_of(partial))) adjoint[operand] += undefined;
+      if (!std::isfinite(value_of(partial))) adjoint[operand] += no_number;
     });
   }
 }

@@ -195,8 +195,8 @@ void SplineCurves::look_ahead(double x0, double z0, double x1, double z1, int de
   const auto value = [&](double x) { return at(x, z0 + (x - x0) / (x1 - x0) * (z1 - z0), derivative); };
   const std::ptrdiff_t before = next - step, count = static_cast<std::ptrdiff_t>(knots.size());
   const auto share = [&](double x) { return (x - x0) / (x1 - x0); };
-  using Taylor = TimeTaylor<double>;
-  const Taylor begin = at(Taylor(from, 1.0, 0.0), Taylor(z0, (z1 - z0) / (x1 - x0), 0.0), derivative);
+  using Course = TimeTaylor<double>;
+  const Course begin = at(Course(from, 1.0, 0.0), Course(z0, (z1 - z0) / (x1 - x0), 0.0), derivative);
   const ExpectedCourse expected(from, begin.value, begin.rate, x1, value(x1));
   if (before >= 0 && before < count && (from - knot(before)) / (knot(next) - knot(before)) < begun) {
     const double middle = 0.5 * (from + knot(next));

@@ -4,7 +4,7 @@ namespace dynalin {
 
 namespace {
 
-constexpr std::string_view markers =
+constexpr std::string_view marker_ids =
     "i, j, k, l  ids of markers, 0 or left out for the global frame; trailing ones may be left out";
 constexpr std::string_view axis_markers = "i, k  ids of markers, k left out for global axes";
 constexpr std::string_view spline_arguments =
@@ -16,30 +16,31 @@ constexpr std::string_view spline_arguments =
 constexpr std::array<VectorAtom, 10> atoms = {{
     {"DXYZ",
      {"DX", "DY", "DZ"},
-     {"i [, j [, k]]", "the displacement [DX, DY, DZ] of i from j, in the axes of k", "length", markers}},
+     {"i [, j [, k]]", "the displacement [DX, DY, DZ] of i from j, in the axes of k", "length", marker_ids}},
     {"VXYZ",
      {"VX", "VY", "VZ"},
      {"i [, j [, k [, l]]]", "the velocity [VX, VY, VZ] of i relative to j, in the axes of k, derivative taken in l",
-      "length/time", markers}},
+      "length/time", marker_ids}},
     {"ACCXYZ",
      {"ACCX", "ACCY", "ACCZ"},
      {"i [, j [, k [, l]]]",
       "the acceleration [ACCX, ACCY, ACCZ] of i relative to j, in the axes of k, derivative taken in l", "length/time²",
-      markers}},
+      marker_ids}},
     {"WXYZ",
      {"WX", "WY", "WZ"},
-     {"i [, j [, k]]", "the angular velocity [WX, WY, WZ] of i relative to j, in the axes of k", "rad/time", markers}},
+     {"i [, j [, k]]", "the angular velocity [WX, WY, WZ] of i relative to j, in the axes of k", "rad/time",
+      marker_ids}},
     {"WDTXYZ",
      {"WDTX", "WDTY", "WDTZ"},
      {"i [, j [, k [, l]]]",
       "the angular acceleration [WDTX, WDTY, WDTZ] of i relative to j, in the axes of k, derivative taken in l",
-      "rad/time²", markers}},
+      "rad/time²", marker_ids}},
     {"FXYZ",
      {"FX", "FY", "FZ"},
-     {"i [, j [, k]]", "the force [FX, FY, FZ] on marker i, in the axes of k", "force", markers}},
+     {"i [, j [, k]]", "the force [FX, FY, FZ] on marker i, in the axes of k", "force", marker_ids}},
     {"TXYZ",
      {"TX", "TY", "TZ"},
-     {"i [, j [, k]]", "the torque [TX, TY, TZ] on marker i, in the axes of k", "force·length", markers}},
+     {"i [, j [, k]]", "the torque [TX, TY, TZ] on marker i, in the axes of k", "force·length", marker_ids}},
     {"UVX",
      {"UVX.X", "UVX.Y", "UVX.Z"},
      {"i [, k]", "the x axis of marker i, a vector of length 1, in the axes of k", "1", axis_markers}},

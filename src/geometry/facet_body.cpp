@@ -19,8 +19,6 @@ constexpr double pointed = 1e-5;       // sine by which all edges of a corner tu
 constexpr double equally_near = 1e-9;  // of the size: places that are as near
 constexpr double one_place = 1e-7;     // of the size: places that are not told apart
 
-Vector unit(const Vector& v) { return v / norm(v); }
-
 // Some direction that all of `edges`, unit vectors out of a vertex, turn away from: one exists where planes through
 // pairs of them hold all others on one side, and the sum of the normals of all such planes is inside of what they
 // bound.
@@ -28,18 +26,18 @@ bool is_pointed(const std::vector<Vector>& edges, const Vector& outward) {
   const auto turns_away = [&](const Vector& e) {
     return std::ranges::all_of(edges, [&](const Vector& u) { return dot(e, u) < -pointed; });
   };
-  if (turns_away(unit(outward))) return true;
-  if (turns_away(-unit(outward))) return false;  // the bottom of a pit
+  if (turns_away(normalized(outward))) return true;
+  if (turns_away(-normalized(outward))) return false;  // the bottom of a pit
   Vector sum{};
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Vector n = cross(edges[i], edges[k]);
       if (i == k || norm(n) <= coplanar) continue;
-      const Vector e = unit(n);
+      const Vector e = normalized(n);
       if (std::ranges::all_of(edges, [&](const Vector& u) { return dot(e, u) <= coplanar; })) sum += e;
     }
   }
-  return norm(sum) > pointed && turns_away(unit(sum)) && dot(sum, outward) > 0;
+  return norm(sum) > pointed && turns_away(normalized(sum)) && dot(sum, outward) > 0;
 }
 
 }  // namespace
@@ -48,7 +46,7 @@ FacetBody::~FacetBody() = default;
 
 FacetBody::FacetBody(const Mesh& mesh) : vertices_(mesh.vertices) {
   const auto add = [&](Index a, Index b, Index c) {
-    triangles_.push_back({{a, b, c}, {}, unit(cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[a]))});
+    triangles_.push_back({{a, b, c}, {}, normalized(cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[a]))});
   };
   for (const auto& t : mesh.triangles) add(t[0], t[1], t[2]);
   for (const auto& q : mesh.quads) add(q[0], q[1], q[2]), add(q[0], q[2], q[3]);
@@ -119,7 +117,7 @@ void FacetBody::flatten() {
   for (Triangle& t : triangles_) {
     const Vector area =
         cross(vertices_[t.corner[1]] - vertices_[t.corner[0]], vertices_[t.corner[2]] - vertices_[t.corner[0]]);
-    if (norm(area) > 0) t.normal = unit(area);
+    if (norm(area) > 0) t.normal = normalized(area);
   }
   for (const FacetPlane& plane : planes) {
     for (const Index t : plane.facets) triangles_[t].normal = plane.normal;
@@ -143,7 +141,7 @@ void FacetBody::find_fans() {
         const std::size_t at = corner_at(t, v);
         fan_of_[t][at] = static_cast<Index>(fans_.size());
         fan.triangles.push_back(t);
-        fan.edges.push_back(unit(vertices_[triangles_[t].corner[(at + 1) % 3]] - vertices_[v]));
+        fan.edges.push_back(normalized(vertices_[triangles_[t].corner[(at + 1) % 3]] - vertices_[v]));
       }
       fans_.push_back(std::move(fan));
     }
@@ -161,7 +159,8 @@ void FacetBody::classify_vertices() {
     for (std::size_t n = 0; n < 3; ++n) {
       Ring& ring = rings[t.corner[n]];
       const Vector& at = vertices_[t.corner[n]];
-      const Vector out = unit(vertices_[t.corner[(n + 1) % 3]] - at), in = unit(vertices_[t.corner[(n + 2) % 3]] - at);
+      const Vector out = normalized(vertices_[t.corner[(n + 1) % 3]] - at),
+                   in = normalized(vertices_[t.corner[(n + 2) % 3]] - at);
       ring.outward += t.normal * std::atan2(norm(cross(out, in)), dot(out, in));
       ring.edges.push_back(out);  // the other one is that of a neighbour
       if (norm(t.normal - triangles_[t.across[n]].normal) > coplanar) ring.creases.push_back(out);
@@ -225,7 +224,7 @@ FacetBody::Feature FacetBody::feature_of(const Near& n) const {
   const bool flat = part == 6 || norm(t.normal - triangles_[t.across[part - 3]].normal) <= coplanar;
   if (flat) return {Feature::Kind::face, vertices_[t.corner[0]], t.normal};
   const Vector &from = vertices_[t.corner[part - 3]], &to = vertices_[t.corner[(part - 2) % 3]];
-  return {Feature::Kind::edge, from, unit(to - from)};
+  return {Feature::Kind::edge, from, normalized(to - from)};
 }
 
 // On one face, or on two that do not stand in, distances grow at least as the places move apart: h² + s².

@@ -11,7 +11,7 @@ namespace {
 
 // Which faces, edges and vertices count is told for a point beside the one that is meant, so that it is never exactly
 // above an edge: what counts there or not has the same distance from both.
-const Vector aside{0.5412, -0.2987, 0.7861};
+const Vector off_symmetry{0.5412, -0.2987, 0.7861};
 constexpr double shift = 1e-9;  // of the size
 
 }  // namespace
@@ -19,7 +19,12 @@ constexpr double shift = 1e-9;  // of the size
 class FacetBody::Critical {
  public:
   Critical(const FacetBody& of, const Vector& p, double radius, bool cavity, std::vector<Place>& places)
-      : of_(of), p_(p), beside_(p + shift * of.radius_ * aside), radius_(radius), cavity_(cavity), places_(places) {}
+      : of_(of),
+        p_(p),
+        beside_(p + shift * of.radius_ * off_symmetry),
+        radius_(radius),
+        cavity_(cavity),
+        places_(places) {}
 
   void face(Index t) {
     const Triangle& f = of_.triangles_[t];

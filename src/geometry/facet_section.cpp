@@ -11,7 +11,7 @@ namespace {
 using Index = FacetBody::Index;
 using Piece = FacetSection::Piece;
 
-constexpr double one_place = 1e-14;  // of the size
+constexpr double one_crossing = 1e-14;  // of the size
 
 // A side, seen from the same end by both of its facets.
 LineInSolid side_in_solid(const QuadricSolid& s, const PlacedSurface& A, Index t, std::size_t side) {
@@ -48,12 +48,10 @@ std::vector<Line> lines_between_ends(const QuadricSolid& s, const std::array<Lin
   return all;
 }
 
-Vector unit(const Vector& v) { return v / norm(v); }
-
 // Of a section that cuts no side: an ellipse about its middle, if that is within.
 void add_ellipse(const QuadricSolid& s, const std::vector<Line>& lines, FacetSection& section) {
   const Vector &n = section.normal, start = lines.front().in.first;
-  const Vector e1 = unit(std::abs(n.x) < 0.6 ? cross(n, Vector{1, 0, 0}) : cross(n, Vector{0, 1, 0})),
+  const Vector e1 = normalized(std::abs(n.x) < 0.6 ? cross(n, Vector{1, 0, 0}) : cross(n, Vector{0, 1, 0})),
                e2 = cross(n, e1);
   const double a = s.form(e1, e1), b = s.form(e1, e2), c = s.form(e2, e2), determinant = a * c - b * b;
   if (!(a > 0 && c > 0 && determinant > 0)) return;
@@ -69,7 +67,7 @@ void add_ellipse(const QuadricSolid& s, const std::vector<Line>& lines, FacetSec
   const std::array<Vector, 4> corners{middle + to1, middle + to2, middle - to1, middle - to2};
   for (std::size_t k = 0; k < 4; ++k) {
     const Vector &from = corners[k], &to = corners[(k + 1) % 4];
-    section.boundary.push_back({SolidFace::curved, 0, from, to, unit(to - from)});
+    section.boundary.push_back({SolidFace::curved, 0, from, to, normalized(to - from)});
   }
 }
 
@@ -77,8 +75,8 @@ void add_ellipse(const QuadricSolid& s, const std::vector<Line>& lines, FacetSec
 void add_arc(const QuadricSolid& s, const Piece& out, const Piece& in, FacetSection& section) {
   const Vector way = in.from - out.to;
   const bool same = &out == &in;
-  if (!same && norm(way) <= one_place * s.size()) return;
-  section.boundary.push_back({SolidFace::curved, 0, out.to, in.from, same ? -out.direction : unit(way)});
+  if (!same && norm(way) <= one_crossing * s.size()) return;
+  section.boundary.push_back({SolidFace::curved, 0, out.to, in.from, same ? -out.direction : normalized(way)});
 }
 
 }  // namespace
@@ -95,7 +93,7 @@ FacetSection section_of(const QuadricSolid& s, const PlacedSurface& A, Index t) 
     const Vector way = in.last - in.first;
     if (!in.enters || norm(way) == 0) continue;
     const bool is_side = line.face == SolidFace::none;
-    straight.push_back({line.face, line.side, in.from, in.to, unit(way), is_side && in.from_at == SolidFace::none,
+    straight.push_back({line.face, line.side, in.from, in.to, normalized(way), is_side && in.from_at == SolidFace::none,
                         is_side && in.to_at == SolidFace::none});
     arc_before.push_back(in.from_at == SolidFace::curved), arc_behind.push_back(in.to_at == SolidFace::curved);
   }

@@ -19,12 +19,12 @@ using plane::OverFoot;
 using plane::PlacedCurve;
 using plane::refine;
 using plane::untwisted;
-using Piece = PlaneCurve::Piece;
+using CurvePiece = PlaneCurve::Piece;
 using Corner = PlaneCurve::Corner;
 
 // Where both curves are nearest: on a piece of each, or at a corner of one.
 struct Place {
-  const Piece *on_I = nullptr, *on_J = nullptr;
+  const CurvePiece *on_I = nullptr, *on_J = nullptr;
   double u = 0, v = 0;
   const Corner *corner_I = nullptr, *corner_J = nullptr;
   Foot foot;  // of such a corner on the other curve
@@ -53,8 +53,8 @@ class Places {
  public:
   Places(const PlacedCurve<double>& I, const PlacedCurve<double>& J)
       : I_(I), J_(J), size_(std::max(I.curve.radius(), J.curve.radius())) {
-    for (const Piece& a : I.curve.pieces()) {
-      for (const Piece& b : J.curve.pieces()) find_between(a, b);
+    for (const CurvePiece& a : I.curve.pieces()) {
+      for (const CurvePiece& b : J.curve.pieces()) find_between(a, b);
     }
     for (const Corner& c : I.curve.corners()) {
       if (I.solid(c)) add_corner(I_, c, J_, true);
@@ -73,13 +73,13 @@ class Places {
  private:
   static constexpr std::size_t most = 64;
 
-  void find_between(const Piece& a, const Piece& b) {
+  void find_between(const CurvePiece& a, const CurvePiece& b) {
     if (a.curved()) find_along(I_, a, J_, b, true);
     if (b.curved()) find_along(J_, b, I_, a, false);
   }
 
   // Along the samples of one piece, where it is lowest above the other one.
-  void find_along(const PlacedCurve<double>& X, const Piece& x, const PlacedCurve<double>& Y, const Piece& y,
+  void find_along(const PlacedCurve<double>& X, const CurvePiece& x, const PlacedCurve<double>& Y, const CurvePiece& y,
                   bool X_is_I) {
     const std::size_t n = x.samples.size();
     struct Sample {
@@ -105,7 +105,8 @@ class Places {
   }
 
   // Newton's method from there.
-  void settle(const Piece& x, double at_x, const Piece& y, double at_y, double height, bool X_is_I, bool at_end) {
+  void settle(const CurvePiece& x, double at_x, const CurvePiece& y, double at_y, double height, bool X_is_I,
+              bool at_end) {
     Place p;
     p.on_I = X_is_I ? &x : &y, p.on_J = X_is_I ? &y : &x;
     p.u = X_is_I ? at_x : at_y, p.v = X_is_I ? at_y : at_x;
@@ -136,10 +137,10 @@ class Places {
     if (over_foot(other, foot, where).gap < -1e-6 * size_) lost_ = undefined_at(where, height);
   }
 
-  static double longest_step(const Piece& p) {
+  static double longest_step(const CurvePiece& p) {
     return p.curved() ? 2 * (p.to - p.from) / static_cast<double>(p.samples.size()) : 1e3;
   }
-  static bool in_range(const Piece& p, double u) {
+  static bool in_range(const CurvePiece& p, double u) {
     return p.round || ((p.start_free || u >= p.from) && (p.end_free || u <= p.to));
   }
 

@@ -11,7 +11,7 @@ namespace dynalin::nastran_reader {
 namespace {
 
 // One line of a card.
-struct Row {
+struct CardRow {
   std::string name;  // empty for a continuation
   Span at;
   bool large = false, free = false;
@@ -51,7 +51,7 @@ std::string tag_of(std::string_view field) {
 }
 
 // The name in field 1, or what makes the row a continuation.
-void read_head(Row& row, std::string_view head) {
+void read_head(CardRow& row, std::string_view head) {
   const std::string text = upper_trimmed(head);
   if (text.empty() || text[0] == '+' || text[0] == '*') {
     row.continues = true;
@@ -83,10 +83,10 @@ class Rows {
 
   std::vector<Card> cards() const {
     std::vector<Card> out;
-    for (const Row& first : rows_) {
+    for (const CardRow& first : rows_) {
       if (first.continues) continue;
       Card card{first.name, first.at, first.at, {}};
-      for (const Row* row = &first; row; row = row->next ? &rows_[*row->next] : nullptr) {
+      for (const CardRow* row = &first; row; row = row->next ? &rows_[*row->next] : nullptr) {
         // A small row begins a row of eight, whatever a large one left open.
         if (!row->large) pad(card, 8);
         card.fields.insert(card.fields.end(), row->fields.begin(), row->fields.end());
@@ -122,7 +122,7 @@ class Rows {
       const std::size_t from = columns.origin[begin];
       return line.span(from, end > begin ? columns.origin[end - 1] + 1 - from : 0);
     };
-    Row row;
+    CardRow row;
     read_head(row, text.substr(0, std::min(name_width, text.size())));
     row.at = span_of(0, name_width);
     if (text.size() > widest_line && text.find_first_not_of(' ', widest_line) != std::string_view::npos) {
@@ -160,7 +160,7 @@ class Rows {
       if (comma == std::string_view::npos) break;
       begin = comma + 1;
     }
-    Row row;
+    CardRow row;
     row.free = true;
     const auto text_of = [&](std::size_t i) { return line.text.substr(items[i].first, items[i].second); };
     const auto span_of = [&](std::size_t i) {
@@ -202,7 +202,7 @@ class Rows {
       if (!rows_[i].tag_out.empty()) by_tag[rows_[i].tag_out].push_back(i);
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
+      CardRow& row = rows_[i];
       if (!row.continues) continue;
       std::optional<std::size_t> parent;
       const bool above =
@@ -254,7 +254,7 @@ class Rows {
     }
   }
 
-  std::vector<Row> rows_;
+  std::vector<CardRow> rows_;
   Diagnostics& diagnostics_;
 };
 

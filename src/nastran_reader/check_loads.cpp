@@ -10,9 +10,9 @@ namespace dynalin::nastran_reader {
 
 namespace {
 
-class Loads {
+class LoadChecks {
  public:
-  Loads(const Deck& deck, const Points& points, Diagnostics& diagnostics)
+  LoadChecks(const Deck& deck, const Points& points, Diagnostics& diagnostics)
       : deck_(deck), points_(points), diagnostics_(diagnostics) {}
 
   void run() {
@@ -147,7 +147,7 @@ class Loads {
 }  // namespace
 
 void check_loads(const Deck& deck, const Points& points, Diagnostics& diagnostics) {
-  Loads(deck, points, diagnostics).run();
+  LoadChecks(deck, points, diagnostics).run();
 }
 
 }  // namespace dynalin::nastran_reader

@@ -11,7 +11,7 @@ namespace dynalin::nastran_reader {
 namespace {
 
 using Entry = std::pair<int, double>;  // column, value
-using Row = std::vector<Entry>;        // in the order of columns
+using SparseRow = std::vector<Entry>;  // in the order of columns
 
 // A pivot is at least so much of the largest entry of its row, so that entries of T stay small.
 constexpr double pivot_share = 0.5;
@@ -28,7 +28,7 @@ class Eliminator {
  public:
   Eliminator(const Equations& equations) : n_(static_cast<int>(equations.fixed.size())), fixed_(equations.fixed) {
     for (const ConstraintRow& r : equations.rows) {
-      Row row;
+      SparseRow row;
       for (const auto& [f, value] : r.terms) {
         // A freedom that is held drops out of every equation.
         if (!fixed_[static_cast<std::size_t>(f)]) row.emplace_back(f, value);
@@ -70,7 +70,7 @@ class Eliminator {
     column_scale_.assign(static_cast<std::size_t>(n_), 1);
     for (int pass = 0; pass < 6; ++pass) {
       std::vector<double> of_column(column_scale_.size(), 0);
-      for (Row& row : rows_) {
+      for (SparseRow& row : rows_) {
         double largest = 0;
         for (const auto& [c, value] : row) largest = std::max(largest, std::abs(value));
         if (largest == 0) continue;
@@ -86,7 +86,7 @@ class Eliminator {
         of_column[c] = of_column[c] > 0 ? power_of_two(std::sqrt(of_column[c])) : 1;
         column_scale_[c] *= of_column[c];
       }
-      for (Row& row : rows_) {
+      for (SparseRow& row : rows_) {
         for (auto& [c, value] : row) value *= of_column[static_cast<std::size_t>(c)];
       }
     }
@@ -105,7 +105,7 @@ class Eliminator {
   }
 
   void take(std::size_t r) {
-    Row& row = rows_[r];
+    SparseRow& row = rows_[r];
     const State& s = state_[r];
     const double left = s.peak > 0 ? s.largest / s.peak : 0;
     if (row.empty() || left <= redundant_below) {
@@ -133,12 +133,12 @@ class Eliminator {
   }
 
   // Takes the pivot column out of another row.
-  void subtract(std::size_t other, const Row& row, int pivot, double pivot_value) {
+  void subtract(std::size_t other, const SparseRow& row, int pivot, double pivot_value) {
     queue_.erase(key(other));
-    Row& target = rows_[other];
+    SparseRow& target = rows_[other];
     const auto at = std::lower_bound(target.begin(), target.end(), Entry{pivot, -HUGE_VAL});
     const double factor = at->second / pivot_value;
-    Row merged;
+    SparseRow merged;
     merged.reserve(target.size() + row.size());
     auto a = target.begin();
     auto b = row.begin();
@@ -177,7 +177,7 @@ class Eliminator {
     std::vector<int> column_of(static_cast<std::size_t>(n_), -1);
     std::vector<bool> dependent(fixed_);
     for (const Pivot& p : pivots_) dependent[static_cast<std::size_t>(p.column)] = true;
-    std::vector<Row> T(static_cast<std::size_t>(n_));
+    std::vector<SparseRow> T(static_cast<std::size_t>(n_));
     for (int f = 0; f < n_; ++f) {
       if (dependent[static_cast<std::size_t>(f)]) continue;
       const int column = static_cast<int>(out_.independent.size());
@@ -202,7 +202,7 @@ class Eliminator {
         }
       }
       std::sort(used.begin(), used.end());
-      Row& row = T[static_cast<std::size_t>(p->column)];
+      SparseRow& row = T[static_cast<std::size_t>(p->column)];
       for (const int k : used) {
         const auto at = static_cast<std::size_t>(k);
         if (std::abs(sum[at]) > cancelled_coefficient * size[at]) row.emplace_back(k, sum[at]);
@@ -210,7 +210,7 @@ class Eliminator {
       }
     }
     std::size_t entries = 0;
-    for (const Row& row : T) entries += row.size();
+    for (const SparseRow& row : T) entries += row.size();
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries);
     for (int f = 0; f < n_; ++f) {
@@ -229,7 +229,7 @@ class Eliminator {
 
   int n_;
   std::vector<bool> fixed_;
-  std::vector<Row> rows_;
+  std::vector<SparseRow> rows_;
   std::vector<double> column_scale_;
   std::vector<State> state_;
   std::vector<std::set<int>> holders_;  // of each column the rows that have it

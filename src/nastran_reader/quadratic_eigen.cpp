@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 // Up to this size every eigenvalue is refined with a factorization of its own.
 constexpr Index refined_up_to = 250;
 
@@ -126,7 +126,7 @@ Vectors inverse_iteration(const Scaled& s, Complex z) {
   const Scales scales = equilibrating(size * size * s.M.cwiseAbs() + size * s.B.cwiseAbs() + s.K.cwiseAbs());
   MatrixXcd Q = scales.rows.cast<Complex>().asDiagonal() * at(s, z) * scales.columns.cast<Complex>().asDiagonal();
   // An exact eigenvalue would leave a pivot of zero.
-  Q.diagonal().array() += epsilon * 1e-3;
+  Q.diagonal().array() += rounding * 1e-3;
   const ComplexFactors factors(std::move(Q));
   Vectors out{start(s.K.rows()), start(s.K.rows())};
   for (int k = 0; k < 3; ++k) {
@@ -155,7 +155,7 @@ Complex refined(const Scaled& s, const Complex first, double distance) {
     z -= z.imag() == 0 ? Complex(step.real(), 0) : step;
     if (!(std::abs(z - first) <= 0.1 * distance) || !(std::abs(z - first) <= 0.1 * std::abs(first))) return first;
     last = relative;
-    if (relative <= epsilon) break;
+    if (relative <= rounding) break;
   }
   return last <= small_step ? z : first;
 }

@@ -28,11 +28,11 @@ constexpr std::string_view refused_for_form = "dependent-twice";
 // What is right, and nobody solves here.
 constexpr std::string_view right_elsewhere = "unassembled-card";
 
-using Row = Eigen::SparseVector<double>;
+using MapRow = Eigen::SparseVector<double>;
 
-double largest_entry(const Row& row) {
+double largest_entry(const MapRow& row) {
   double most = 0;
-  for (Row::InnerIterator it(row); it; ++it) most = std::max(most, std::abs(it.value()));
+  for (MapRow::InnerIterator it(row); it; ++it) most = std::max(most, std::abs(it.value()));
   return most;
 }
 
@@ -40,25 +40,25 @@ double largest_entry(const Row& row) {
 // all.
 void check_undeformed(const Prepared& p, Diagnostics& diagnostics) {
   const auto& T = p.elimination.T;
-  const auto motion = [&](const Point& point, int c) { return Row(T.row(point.first + c).transpose()); };
+  const auto motion = [&](const Point& point, int c) { return MapRow(T.row(point.first + c).transpose()); };
   for (const UndeformedElement& e : p.deck.undeformed) {
     if (e.card == "PLOTEL") continue;
     const Point* first = p.points->find(e.grids[0].id);
-    Row moves[6];
+    MapRow moves[6];
     for (int c = 0; c < 6; ++c) moves[c] = motion(*first, c);
     bool rigid = true;
     for (std::size_t k = 1; k < e.grids.size() && rigid; ++k) {
       const Point* other = p.points->find(e.grids[k].id);
       const Matrix6 map = rigid_map(*first, *other);
       for (int c = 0; c < 6 && rigid; ++c) {
-        Row expected(T.cols());
+        MapRow expected(T.cols());
         double size = 0;
         for (int j = 0; j < 6; ++j) {
           if (map(c, j) == 0) continue;
           expected += map(c, j) * moves[j];
           size = std::max(size, std::abs(map(c, j)) * largest_entry(moves[j]));
         }
-        const Row is = motion(*other, c);
+        const MapRow is = motion(*other, c);
         size = std::max(size, largest_entry(is));
         rigid = largest_entry(is - expected) <= 1e-8 * size;
       }

@@ -20,7 +20,7 @@ constexpr double least_rest_step = 1.0 / 256, steps_of_turning = 8;
 // A step is no jump if it ends as near as this, in lengths of the model and radians, to where the last steps lead, or
 // within this part of its way.
 constexpr double near = 0.05, near_of_way = 0.5;
-constexpr double largest_turn = 1;  // that a step is predicted by, and that a MOTION makes in it [rad]
+constexpr double largest_step_turn = 1;  // that a step is predicted by, and that a MOTION makes in it [rad]
 // How near the instant at which a sensor triggers is found, as a part of the whole time, in how many equilibria at
 // most.
 constexpr double instant = 1e-12;
@@ -82,7 +82,7 @@ class QuasiStaticRun {
     double pace = h;  // of turning, which a MOTION that stops does not do at once
     while (begun && !end_) {
       const double target = times_.at(next_);
-      const double left = target - at_.time, turning = turning_.step(at_, times_.step(), largest_turn);
+      const double left = target - at_.time, turning = turning_.step(at_, times_.step(), largest_step_turn);
       h = std::min(h, turning);
       pace = std::min(pace, turning);
       const double t = times_.next(at_.time, h, next_);
@@ -136,7 +136,7 @@ class QuasiStaticRun {
   }
   OperatingPoint predicted(double t) const {
     OperatingPoint op = from_here(t);
-    if (speed_.size() > 0) displace(system_, op, (t - at_.time) * speed_, {largest_turn});
+    if (speed_.size() > 0) displace(system_, op, (t - at_.time) * speed_, {largest_step_turn});
     return op;
   }
   bool is_jump(const Eigen::VectorXd& change, double step) const {

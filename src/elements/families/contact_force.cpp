@@ -15,7 +15,7 @@ namespace dynalin {
 
 namespace {
 
-using Seeded = Dual<12>;
+using SeededPair = Dual<12>;
 // Of one pair of shapes, neither of which has more corners than a box.
 constexpr std::size_t most_touches = std::max({most_plane_touches, box_touches, most_touches_in_space});
 
@@ -245,10 +245,10 @@ PairForce ContactKernel::force_of(const Placed& p, const PairMotion& pair, const
   RelativeWrench w;
   w.depends_on_rate = true;
   if (wanted == Partials::yes && is_closed(c, plain(pair))) {
-    const ForceAndTorque<Seeded> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs, motion);
+    const ForceAndTorque<SeededPair> sum = contact_wrench(c, path::seeded<12>(pair.relative), rubs, motion);
     w.levers = sum.levers;
     for (std::size_t r = 0; r < 6; ++r) {
-      const Seeded& component = r < 3 ? sum.force[r] : sum.torque[r - 3];
+      const SeededPair& component = r < 3 ? sum.force[r] : sum.torque[r - 3];
       (r < 3 ? w.force[r] : w.torque[r - 3]) = component.value;
       for (std::size_t k = 0; k < 6; ++k) {
         w.on_pose[r][k] = component.partial[k];

@@ -1,0 +1,7 @@
+#include "base/product_kernels.h"
+
+namespace Eigen::internal {
+
+DYNALIN_COMPLEX_KERNELS()
+
+}  // namespace Eigen::internal
