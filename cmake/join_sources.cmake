@@ -1,21 +1,29 @@
 # Where DYNALIN_JOINED_SOURCES is on, some sources at a time are compiled as one: what they include is read once, and
-# templates that they share are instantiated once, which takes a third to a half of the time away. Names that belong to
-# one file must then be unlike those of its neighbours; a file that cannot have that (`apart`) stays by itself.
+# templates that they share are instantiated once, which takes more than half of the time away. The more at once, the
+# less is done twice, but the more memory one compiler needs: 2 GB for 24 tests or for 18 sources full of matrices.
+# Names that belong to one file must then be unlike those of its neighbours; a file that cannot have that (`apart`)
+# stays by itself.
 #
-#   join_sources(target [BY_FOLDER] [AT_ONCE n] [APART source...])
+#   join_sources(target [BY_FOLDER] [AT_ONCE n] [HALVED folder...] [APART source...])
 #
-# BY_FOLDER joins sources of one folder only, and so a new one meets no names but those of its folder.
+# BY_FOLDER joins sources of one folder only, and so a new one meets no names but those of its folder. Of the folders that
+# are HALVED, half as many sources are compiled at once.
 function(join_sources target)
   if(NOT DYNALIN_JOINED_SOURCES)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 join "BY_FOLDER" "AT_ONCE" "APART")
+  cmake_parse_arguments(PARSE_ARGV 1 join "BY_FOLDER" "AT_ONCE" "HALVED;APART")
   if(NOT join_AT_ONCE)
-    set(join_AT_ONCE 12)
+    set(join_AT_ONCE 24)
   endif()
   get_target_property(sources ${target} SOURCES)
   get_target_property(here ${target} SOURCE_DIR)
   list(TRANSFORM join_APART PREPEND ${PROJECT_SOURCE_DIR}/)
+  set(halved "")
+  foreach(folder IN LISTS join_HALVED)
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    list(APPEND halved ${folder})
+  endforeach()
   set(folders "")
   foreach(source IN LISTS sources)
     if(NOT source MATCHES "\\.cpp$")
@@ -38,8 +46,12 @@ function(join_sources target)
   list(REMOVE_DUPLICATES folders)
   foreach(folder IN LISTS folders)
     # Equal shares of at most n.
+    set(most ${join_AT_ONCE})
+    if(folder IN_LIST halved)
+      math(EXPR most "${most} / 2")
+    endif()
     list(LENGTH of_${folder} count)
-    math(EXPR groups "(${count} + ${join_AT_ONCE} - 1) / ${join_AT_ONCE}")
+    math(EXPR groups "(${count} + ${most} - 1) / ${most}")
     set(k 0)
     foreach(source IN LISTS of_${folder})
       math(EXPR group "${k} * ${groups} / ${count}")
