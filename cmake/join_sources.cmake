@@ -1,5 +1,5 @@
 # Where DYNALIN_JOINED_SOURCES is on, some sources at a time are compiled as one: what they include is read once, and
-# templates that they share are instantiated once, which takes more than half of the time away. The more at once, the
+# templates that they share are instantiated once, which takes about half of the time away. The more at once, the
 # less is done twice, but the more memory one compiler needs: 2 GB for 24 tests or for 18 sources full of matrices.
 # Names that belong to one file must then be unlike those of its neighbours; a file that cannot have that (`apart`)
 # stays by itself.

@@ -292,9 +292,18 @@ template <Scalar T>
 T trunc(const T& a) {
   return std::trunc(value_of(a));
 }
+// a less a whole number of times b.
+template <Scalar T, class B>
+T fmod(const T& a, const B& b) {
+  const double rest = std::fmod(value_of(a), value_of(b));
+  const T along = a - std::round((value_of(a) - rest) / value_of(b)) * b;
+  return along + (rest - value_of(along));
+}
 template <Scalar T>
-T fmod(const T& a, double b) {
-  return a - (value_of(a) - std::fmod(value_of(a), b));
+T fmod(double a, const T& b) {
+  const double rest = std::fmod(a, value_of(b));
+  const T along = a - std::round((a - rest) / value_of(b)) * b;
+  return along + (rest - value_of(along));
 }
 template <Scalar T, class B>
 T copysign(const T& a, const B& b) {

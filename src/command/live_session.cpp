@@ -99,7 +99,8 @@ bool LiveSession::begin_job() {
   for (const std::string_view name : run_->environment.names())
     remarks.say("environment-variable",
                 fmt::format("the environment variable {} is set and changes what this run computes", name));
-  if (job.commands.empty() && !preferences.at_prompt)
+  const bool nothing_runs = std::ranges::all_of(plan_.jobs, [](const Job& j) { return j.commands.empty(); });
+  if (nothing_runs && !preferences.at_prompt)
     remarks.say("no-commands", "the command file ends behind the name of the model: there is nothing to run");
   return true;
 }

@@ -303,14 +303,22 @@ class KinematicRun {
                    "wrong-derivatives", std::move(names));
   }
 
-  // Which of several redundant rows it is that will not hold is not known.
-  std::string contradicting(const OperatingPoint& here, const std::vector<std::string>& redundant) const {
+  // Which of several redundant rows it is that will not hold is not known; those that move parts begin with it.
+  std::string contradicting(const OperatingPoint& here) const {
     const Partition& part = equations_.partition();
-    if (part.redundant.size() != 1) return list(redundant) + " cannot hold together with the others";
+    std::vector<std::int32_t> suspects;
+    for (const std::int32_t k : part.redundant)
+      if (system_.layout().rows[static_cast<std::size_t>(k)].prescribed) suspects.push_back(k);
+    if (suspects.empty()) suspects = part.redundant;
+    if (suspects.size() != 1) {
+      std::vector<std::string> names;
+      for (const std::int32_t k : suspects) names.push_back(system_.row_text(k));
+      return list(std::move(names)) + " cannot hold together with the others";
+    }
     ConstraintRows rows;
     rows.resize(system_.layout());
     system_.constraints(system_.motion(here), rows);
-    return contradiction(system_, scaled_gradients(system_, rows), part.active, part.redundant.front());
+    return contradiction(system_, scaled_gradients(system_, rows), part.active, suspects.front());
   }
 
   // Why no step leads on from the last accepted point.
@@ -331,7 +339,7 @@ class KinematicRun {
     if (missed == KinematicEquations::Missed::contradicted) {
       std::vector<std::string> rows;
       for (const std::int32_t k : equations_.partition().redundant) rows.push_back(system_.row_text(k));
-      return failure(at_.time, "the constraints begin to contradict each other: " + contradicting(here, rows),
+      return failure(at_.time, "the constraints begin to contradict each other: " + contradicting(here),
                      "contradicting-constraints", std::move(rows));
     }
     // What is defined here and not a moment later has ended.

@@ -165,6 +165,17 @@ TEST(KinematicLimits, redundant_rows_may_be_off_by_what_is_allowed) {
   EXPECT_LE(strict.outputs.back().time, 0.2);
 }
 
+TEST(KinematicLimits, the_motion_that_begins_to_contradict_is_named) {
+  // Two hinges on one axis, each driven; those of them are redundant as well.
+  const KinematicRun run(
+      "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nMARKER/21, QP=0,0,1\nMARKER/2, PART=1, QP=0,0,1\n"
+      "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=21, J=2\nMOTION/1, JOINT=1, FUNCTION=TIME\n"
+      "MOTION/2, JOINT=2, FUNCTION=TIME+0.1*MAX(TIME-1,0)\n",
+      2, 10);
+  ASSERT_FALSE(run.end);
+  EXPECT_THAT(run.end.error().message, HasSubstr("contradict each other: rotation in MOTION/2 cannot hold"));
+}
+
 TEST(KinematicLimits, states_and_rows_on_velocities_have_to_be_integrated) {
   const std::string wheel = "PART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, REVOLUTE, I=20, J=1\n";
   EXPECT_FALSE(needs_integration(*system_of(wheel + "MOTION/1, JOINT=1, VELOCITY, FUNCTION=1\n")));

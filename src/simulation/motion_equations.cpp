@@ -29,6 +29,7 @@ MotionEquations::MotionEquations(const System& system, Events& events, const Ope
   }
   accept(at);
   find_differential();
+  if (events_.size() > 0) between_.emplace(system_, motion_);
 }
 
 // Velocities without inertia and states without a rate have no error test: constraints and balances decide them.
@@ -331,6 +332,7 @@ const ColumnMatrix* MotionEquations::jacobian(double t, double c, std::span<cons
 void MotionEquations::switches(double t, std::span<const double> y, std::span<const double> yp,
                                std::span<double> values) {
   unknowns_.unpack(t, y, yp, motion_);
+  if (between_) between_->evaluate(motion_, scratch_);
   events_.values(motion_, values);
   if (!switches_watched_) std::ranges::fill(values.first(events_.switch_count()), 1.0);
 }

@@ -13,6 +13,7 @@
 // What μ does to it is left out: μ is as small as the errors.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "simulation/dae_problem.h"
 #include "simulation/error_tolerance.h"
 #include "simulation/events.h"
+#include "simulation/explicit_values.h"
 #include "simulation/motion_unknowns.h"
 
 namespace dynalin {
@@ -100,6 +102,7 @@ class MotionEquations final : public DaeProblem {
   std::vector<Place> places_;
   std::vector<Chart> charts_;  // by body
   std::vector<double> differential_;
+  std::optional<ExplicitValues> between_;  // what events may read in between two points, where there are any
   bool switches_watched_ = true;
   std::string undefined_;
   mutable std::vector<double> rates_;  // of coordinates, scratch

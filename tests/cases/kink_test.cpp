@@ -38,6 +38,10 @@ TEST_F(Kinks, are_named_with_the_slopes_of_both_sides) {
                             "-100*DX(2)+MAX(DX(2),VX(2))"}) {
     EXPECT_THAT(said(block(force)), HasSubstr("has a kink here")) << force;
   }
+  for (const std::string from : {"0.3", "0.7", "1.1", "1.9"}) {
+    const std::string force = "STEP5(DX(2)+2.6," + from + ",1,2.6,-2)";
+    EXPECT_THAT(said(block(force)), Not(HasSubstr("kink"))) << force;
+  }
   // With the corner a little beside the point as well: nothing jumps there.
   EXPECT_THAT(said(block("-ABS(DX(2)-1E-13)")),
               HasSubstr("has a kink here: along DX(2) its slope by it changes from 1 to -1"));

@@ -59,6 +59,8 @@ TEST(FormulaFunctions, have_their_values_and_derivatives_on_every_scalar) {
   expect_on_both_sides("erf", [](auto x) { return erf(x); });
   expect_on_both_sides("floor", [](auto x) { return floor(3.0 * x) + ceil(3.0 * x) + trunc(3.0 * x); });
   expect_on_both_sides("fmod", [](auto x) { return fmod(x * x * x, 0.4); });
+  expect_on_both_sides("fmod of a number", [](auto x) { return fmod(5.35, x); });
+  expect_on_both_sides("fmod of two", [](auto x) { return fmod(x * x * x, 0.3 + 0.1 * x); });
   expect_on_both_sides("copysign", [](auto x) { return copysign(x * x, x) + copysign(2.0, x) + copysign(x, -1.0); });
   expect_on_both_sides("min", [](auto x) { return min(x, 0.0) + min(0.5, x) + min(x, x * x); });
   expect_on_both_sides("max", [](auto x) { return max(x, 0.0) + max(0.5, x) + max(x, x * x); });

@@ -5,6 +5,7 @@
 // λ Φ_q, or λ Ψ_q′: a constraint force does no work in a permitted motion. I only says where a force is reported.
 #include <fmt/format.h>
 
+#include "elements/constraints/without_variables.h"
 #include "elements/families/markers.h"
 #include "expression/functions.h"
 #include "mechanics/bound_expression.h"
@@ -35,6 +36,14 @@ struct GeneralConstraint {
     return RowLevel::position;
   }
 };
+
+// Accelerations, forces and states follow from the constraint.
+constexpr Readable measures_and_time = {[](const Atom& a) {
+                                          const bool is_measure = a.function->family == AtomFamily::marker_measure;
+                                          return a.function->family == AtomFamily::time ||
+                                                 (is_measure && a.function->order <= 1);
+                                        },
+                                        "displacements, velocities and TIME only", "unfit-constraint"};
 
 class GeneralConstraintKernel final : public Kernel, public WrenchSource {
  public:
@@ -121,39 +130,20 @@ class GeneralConstraintSet final : public TypedSet<GeneralConstraint> {
  public:
   using TypedSet::TypedSet;
 
-  void read(std::size_t k, ElementReader& reader) override {
-    GeneralConstraint& g = elements[k];
-    if (!read_arguments(g, reader)) return;
-    const auto unfit = [&](const Span& at, std::string_view name, std::string_view reason) {
-      reader.error("unfit-constraint", at,
-                   fmt::format("FUNCTION of {} uses {}, {}", reader.label().text(), name, reason),
-                   "displacements, velocities and TIME may be used");
-    };
-    for (const Atom& atom : g.function.atoms()) {
-      switch (atom.function->family) {
-        case AtomFamily::time:
-          break;
-        case AtomFamily::marker_measure:
-          if (atom.function->order > 1) unfit(atom.at, atom.function->name, "an acceleration");
-          break;
-        case AtomFamily::marker_force:
-        case AtomFamily::element_force:
-          unfit(atom.at, atom.function->name, "a force");
-          break;
-        case AtomFamily::data:
-        case AtomFamily::delay:
-          unfit(atom.at, atom.function->name, "which no constraint can follow");
-          break;
-      }
-    }
-    for (const Expression::Call& call : g.function.calls()) {
-      if (has_kinks(call.name)) unfit(call.at, call.name, "which has kinks or jumps");
-    }
-  }
+  void read(std::size_t k, ElementReader& reader) override { read_arguments(elements[k], reader); }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      if (elements[k].i.valid()) check_fixed(model, labels[k], elements[k].i, "I", diagnostics);
+      GeneralConstraint& g = elements[k];
+      if (g.i.valid()) check_fixed(model, labels[k], g.i, "I", diagnostics);
+      auto function = WithoutVariables(model, labels[k], measures_and_time, diagnostics).of(g.function);
+      if (!function) continue;
+      g.function = std::move(*function);
+      for (const Expression::Call& call : g.function.calls()) {
+        if (!has_kinks(call.name)) continue;
+        diagnostics.error(measures_and_time.code, call.at,
+                          fmt::format("{} uses {}, which has kinks or jumps", labels[k].text(), call.name));
+      }
     }
   }
 

@@ -17,8 +17,8 @@
 
 #include <algorithm>
 
-#include "elements/constraints/course_in_time.h"
 #include "elements/constraints/motion_routine.h"
+#include "elements/constraints/without_variables.h"
 #include "elements/families/pair_displacement.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/pair_state_source.h"
@@ -320,7 +320,7 @@ class MotionSet final : public TypedSet<PrescribedMotion> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       PrescribedMotion& m = elements[k];
-      auto in_time = CourseInTime(model, labels[k], diagnostics).of(m.function);
+      auto in_time = WithoutVariables(model, labels[k], time_alone, diagnostics).of(m.function);
       if (!in_time) continue;
       m.function = std::move(*in_time);
       if (m.joint.valid()) {

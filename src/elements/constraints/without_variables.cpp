@@ -1,4 +1,4 @@
-#include "elements/constraints/course_in_time.h"
+#include "elements/constraints/without_variables.h"
 
 #include <fmt/format.h>
 
@@ -15,24 +15,25 @@ std::size_t entry(const Atom& atom) { return static_cast<std::size_t>(atom.argum
 
 }  // namespace
 
-std::optional<Expression> CourseInTime::of(const Expression& function) {
+std::optional<Expression> WithoutVariables::of(const Expression& function) {
   const std::size_t before = diagnostics_.error_count();
-  Expression course = function.with_definitions([&](const Atom& atom) { return definition(atom); });
+  Expression without = function.with_definitions([&](const Atom& atom) { return definition(atom); });
   if (diagnostics_.error_count() > before) return std::nullopt;
-  return course;
+  return without;
 }
 
-std::optional<Expression> CourseInTime::definition(const Atom& atom) {
-  if (atom.function->family == AtomFamily::time) return std::nullopt;
+std::optional<Expression> WithoutVariables::definition(const Atom& atom) {
+  if (readable_.reads(atom)) return std::nullopt;
   if (const auto number = constant(atom)) return Expression::constant(*number);
   const auto variable = variable_of(atom);
   if (!variable) {
-    diagnostics_.error("function-of-state", atom.at,
-                       fmt::format("{} depends on {}, it may depend on TIME only", label_.text(), atom.at.text()));
+    diagnostics_.error(
+        readable_.code, atom.at,
+        fmt::format("{} depends on {}, it may depend on {}", label_.text(), atom.at.text(), readable_.in_words));
     return std::nullopt;
   }
   if (std::find(within_.begin(), within_.end(), *variable) != within_.end()) {
-    diagnostics_.error("function-of-state", atom.at,
+    diagnostics_.error(readable_.code, atom.at,
                        fmt::format("{}, which {} follows, depends on itself", atom.at.text(), label_.text()));
     return std::nullopt;
   }
@@ -43,18 +44,18 @@ std::optional<Expression> CourseInTime::definition(const Atom& atom) {
   return course;
 }
 
-const Array* CourseInTime::array_of(const Atom& atom) const {
+const Array* WithoutVariables::array_of(const Atom& atom) const {
   if (atom.function->reads != DataSource::array_entry) return nullptr;
   const auto handle = model_.find(atom.function->statement, atom.argument[0]);
   return handle ? model_.get<Array>(*handle) : nullptr;
 }
 
-std::optional<double> CourseInTime::constant(const Atom& atom) const {
+std::optional<double> WithoutVariables::constant(const Atom& atom) const {
   const Array* array = array_of(atom);
   return array && entry(atom) < array->numbers.size() ? std::optional(array->numbers[entry(atom)]) : std::nullopt;
 }
 
-std::optional<VariableRef> CourseInTime::variable_of(const Atom& atom) const {
+std::optional<VariableRef> WithoutVariables::variable_of(const Atom& atom) const {
   const auto handle = model_.find(atom.function->statement, atom.argument[0]);
   if (!handle) return std::nullopt;
   if (atom.function->reads == DataSource::value) return VariableRef{*handle};
