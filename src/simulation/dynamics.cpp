@@ -53,6 +53,7 @@ class Dynamics {
     auto start = consistent(std::move(from));
     if (!start) return tl::unexpected(start.error());
     point_ = std::move(*start);
+    warn_of_change_point(system_, point_, findings_.warnings);
     system_.record(point_);
     const auto begun_with = act_at_start();
     if (!begun_with) return tl::unexpected(begun_with.error());

@@ -60,6 +60,30 @@ TEST(DynamicsWithEvents, ends_where_a_sensor_says) {
 
 // Its function ends at t = 0.5, behind where it triggers.
 // sin 2t has its maximum between outputs and steps, and comes within ERROR of what it is compared with.
+// Nothing that moves reads the VARIABLEs: no step is looked at for what is between its ends.
+TEST(DynamicsWithEvents, sensors_read_variables_as_exactly_as_what_these_are) {
+  const std::string free =
+      "PART/2, MASS=1, CM=20, IP=1,1,1, VZ=1\nMARKER/20\nVARIABLE/1, FUNCTION=SIN(5*TIME)\n"
+      "VARIABLE/2, FUNCTION=2*VARVAL(1)\nVARIABLE/3, FUNCTION=SIN(5*DZ(20))\n"
+      "VARIABLE/4, FUNCTION=IF(TIME-1.777: 0, 1, 1)\nVARIABLE/5, "
+      "FUNCTION=VARVAL(1)+0.1*SIN(VARVAL(5))-0.1*SIN(VARVAL(5))\n";
+  struct Row {
+    const char* sensor;
+    double at;
+  };
+  const double first = std::asin(0.8) / 5;
+  for (const Row& row : {Row{"VARVAL(1), VALUE=0.8, GE", first},
+                         {"VARVAL(2), VALUE=1.6, GE", first},
+                         {"VARVAL(3), VALUE=0.8, GE", first},
+                         {"VARVAL(4), VALUE=0.5, GE", 1.777}}) {
+    for (const double step : {4.0, 0.01}) {
+      const Led r = lead(free + "SENSOR/1, HALT, FUNCTION=" + row.sensor + "\n", 4, step);
+      EXPECT_EQ(r.end.end, SimulationEnd::halted) << row.sensor;
+      EXPECT_NEAR(r.end.point.time, row.at, 1e-9) << row.sensor << " " << step;
+    }
+  }
+}
+
 TEST(DynamicsWithEvents, end_where_a_sensor_is_touched) {
   for (const std::string how : {"EQ", "GE"}) {
     const Led r = lead(decay + "SENSOR/1, FUNCTION=SIN(2*TIME), VALUE=1.0005, ERROR=1E-3, RETURN, " + how + "\n", 3, 3);

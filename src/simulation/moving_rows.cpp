@@ -1,5 +1,7 @@
 #include "simulation/moving_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,6 +57,21 @@ std::vector<bool> rows_of_motion(const System& system, const OperatingPoint& op)
   if (!met) return std::move(here.active);
   Partition there = partition_at(system, *met);
   return there.redundant.size() < here.redundant.size() ? std::move(there.active) : std::move(here.active);
+}
+
+void warn_of_change_point(const System& system, const OperatingPoint& start, Diagnostics& out) {
+  const Partition here = partition_at(system, start);
+  if (here.redundant.empty()) return;
+  const std::vector<bool> moving = rows_of_motion(system, start);
+  const auto dependent =
+      std::ranges::find_if(here.redundant, [&](std::int32_t k) { return moving[static_cast<std::size_t>(k)]; });
+  if (dependent == here.redundant.end()) return;
+  out.warning("change-point", system.layout().rows[static_cast<std::size_t>(*dependent)].owner->at,
+              fmt::format("the simulation begins at a change point, where {} depends on other constraints for this "
+                          "instant alone: its beginning is less exact than ERROR says, and what hardly moves may not "
+                          "leave it",
+                          system.row_text(*dependent)),
+              "begin a little beside it");
 }
 
 }  // namespace dynalin

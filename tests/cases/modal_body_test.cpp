@@ -160,7 +160,7 @@ class ModalLump final : public Kernel {
         for (std::size_t level = 0; level < 3; ++level) {
           for (std::size_t k = 0; k < block.count; ++k) {
             const auto of = [&](std::size_t c) { return varied[c].acceleration.partial[6 * level + k]; };
-            apply_column(pair, -lump[p].mass * Vector{of(0), of(1), of(2)}, {}, false, families[level],
+            apply_column(pair, -lump[p].mass * Vector{of(0), of(1), of(2)}, {}, Reaction::none, families[level],
                          block.column + static_cast<std::int32_t>(k), eq);
           }
         }

@@ -44,6 +44,14 @@ const std::vector<Remark>& table() {
        SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
                     "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
+      {"change-point", 16,
+       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=2,0,0\n"
+       "PART/2, MASS=1, CM=20, IP=1,1,1, WZ=1\nMARKER/20\nMARKER/21, QP=1,0,0\n"
+       "PART/3, MASS=1, CM=30, IP=1,1,1, QG=2,0,0, WZ=1\nMARKER/30\nMARKER/31, QP=1,0,0\n"
+       "PART/4, MASS=1, CM=40, IP=1,1,1, QG=1,0,0, VY=1\nMARKER/40\nMARKER/41, QP=2,0,0\n"
+       "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=2\nJOINT/3, REVOLUTE, I=40, J=21\n"
+       "JOINT/4, REVOLUTE, I=41, J=31\nEND\n",
+       "SIMULATE/DYNAMICS, END=1E-3, STEPS=1\n"},
       {"rest-by-rolling", 8, SLIDER(BODY) "GCON/1, FUNCTION=VZ(20)\nEND\n", "SIMULATE/STATICS\n"},
       {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
        "LINEAR/EIGENSOL\n"},
