@@ -55,7 +55,7 @@ std::string BoundExpression::kink_along(std::size_t moved, double size, std::vec
     if (!stays(below_far.slopes[k], above_far.slopes[k], below.slopes[k], above.slopes[k])) continue;
     // What a slope makes of the value along all of what it is a slope by: of a STEP5 that ends, rounding.
     const double reach = std::abs(values[k]) + (k == moved ? size : 0.0);
-    if (std::abs(above.slopes[k] - below.slopes[k]) * reach <= near * std::abs(below.value)) continue;
+    if (reach > 0 && std::abs(above.slopes[k] - below.slopes[k]) * reach <= near * std::abs(below.value)) continue;
     const Side at = side(0);
     const std::string by = k == moved ? "it" : std::string(expression_.atoms()[k].at.text());
     return fmt::format("has a kink here: along {} its slope by {} changes from {:g} to {:g}, and {:g} is taken", name,
