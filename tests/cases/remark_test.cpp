@@ -44,7 +44,7 @@ const std::vector<Remark>& table() {
        SLIDER(BODY) "DIFF/1, IMPLICIT, IC=0.3, FUNCTION=DIF1(1)+DIF1(2)+2*DIF(1)\nDIFF/2, IMPLICIT, IC=3, "
                     "FUNCTION=2*DIF1(1)+2*DIF1(2)+DIF(1)-2*DIF(2)\nEND\n",
        "LINEAR/EIGENSOL\n"},
-      {"change-point", 16,
+      {"change-point", 17,
        "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nMARKER/2, QP=2,0,0\n"
        "PART/2, MASS=1, CM=20, IP=1,1,1, WZ=1\nMARKER/20\nMARKER/21, QP=1,0,0\n"
        "PART/3, MASS=1, CM=30, IP=1,1,1, QG=2,0,0, WZ=1\nMARKER/30\nMARKER/31, QP=1,0,0\n"
