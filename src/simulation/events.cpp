@@ -21,6 +21,13 @@ void Events::values(const Motion& motion, std::span<double> values) {
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = list_.counts[k] ? list_.value[k] : 1.0;
 }
 
+void Events::watched(const Motion& motion, std::span<double> values) {
+  list_.clear();
+  for (const EventSource* source : system_->event_sources()) source->crossings(motion, scratch_, list_);
+  assert(list_.value.size() == sensors_ && values.size() == sensors_);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = list_.counts[k] ? list_.value[k] : 1.0;
+}
+
 bool Events::watched_is_finite(const Motion& motion) {
   if (sensors_ == 0) return true;
   list_.clear();

@@ -21,6 +21,8 @@ class Events {
   std::size_t switch_count() const { return switches_; }  // which come first
   // Functions that change their sign at an event: all switches of the system, then those of its sensors.
   void values(const Motion&, std::span<double>);
+  // Those of sensors alone.
+  void watched(const Motion&, std::span<double>);
   // Whether what sensors watch has values.
   bool watched_is_finite(const Motion&);
   // Where a simulation begins: sensors whose condition holds trigger at once.

@@ -29,7 +29,7 @@ MotionEquations::MotionEquations(const System& system, Events& events, const Ope
   }
   accept(at);
   find_differential();
-  if (events_.size() > 0) between_.emplace(system_, motion_);
+  if (events_.size() > events_.switch_count()) between_.emplace(system_, motion_);
 }
 
 // Velocities without inertia and states without a rate have no error test: constraints and balances decide them.
@@ -332,9 +332,11 @@ const ColumnMatrix* MotionEquations::jacobian(double t, double c, std::span<cons
 void MotionEquations::switches(double t, std::span<const double> y, std::span<const double> yp,
                                std::span<double> values) {
   unknowns_.unpack(t, y, yp, motion_);
-  if (between_) between_->evaluate(motion_, scratch_);
   events_.values(motion_, values);
   if (!switches_watched_) std::ranges::fill(values.first(events_.switch_count()), 1.0);
+  if (!between_) return;
+  between_->evaluate(motion_, scratch_);
+  events_.watched(motion_, values.subspan(events_.switch_count()));
 }
 
 double MotionEquations::part_to_make(const Instant& from, const Instant& to) {

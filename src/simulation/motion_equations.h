@@ -102,7 +102,7 @@ class MotionEquations final : public DaeProblem {
   std::vector<Place> places_;
   std::vector<Chart> charts_;  // by body
   std::vector<double> differential_;
-  std::optional<ExplicitValues> between_;  // what events may read in between two points, where there are any
+  std::optional<ExplicitValues> between_;  // that sensors may read in between two points, where there are any
   bool switches_watched_ = true;
   std::string undefined_;
   mutable std::vector<double> rates_;  // of coordinates, scratch

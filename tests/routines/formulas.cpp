@@ -75,8 +75,11 @@ DYNALIN_USER_ROUTINE(wrench_by_formula, Wrench)
 struct OfASpline {
   template <class T>
   void operator()(const dynalin::user::Call<T>& call, T* value) const {
-    const int of = static_cast<int>(call.parameter(0));
-    const int i = static_cast<int>(call.parameter(2)), j = static_cast<int>(call.parameter(3));
+    const auto id = [&](int k) {  // 0 where it is not stated
+      const double stated = call.parameter(k);
+      return stated == stated ? static_cast<int>(stated) : 0;
+    };
+    const int of = id(0), i = id(2), j = id(3);
     const T x = call.measure("DX", {i, j, j}), z = call.parameter(4) * call.measure("DY", {i, j, j});
     value[0] = -(call.parameter(1) == 0 ? dynalin::user::akispl(x, z, of) : dynalin::user::cubspl(x, z, of));
   }
