@@ -20,7 +20,7 @@ build() {
   if ninja -C "$folder" -n 2>/dev/null | grep -q 'no work to do'; then return 0; fi
   if [ ! -e "$folder/dynalin" ]; then
     local long="a quarter of an hour or so"
-    [ "$1" != test ] || long="nearly half an hour, with all tests,"
+    [ "$1" != test ] || long="some twenty minutes, with all tests,"
     say "building Dynalin, which takes $long the first time"
   fi
   if [ -t 2 ]; then
