@@ -22,10 +22,9 @@ StaticEquations::StaticEquations(const System& system)
 Partition StaticEquations::partition_at_rest() const {
   const auto on_velocities = [&](std::int32_t k) { return rows_.level(k) == RowLevel::velocity; };
   Partition of_positions = system_.partition(rows_, RowLevel::position);
-  std::vector<bool> left_out(static_cast<std::size_t>(rows_.size()), false);
-  bool any = false;
-  for (std::int32_t k = 0; k < rows_.size(); ++k) any = any || on_velocities(k);
-  if (!any) return of_positions;
+  std::vector<bool> left_out;
+  for (std::int32_t k = 0; k < rows_.size(); ++k) left_out.push_back(on_velocities(k));
+  if (std::ranges::find(left_out, true) == left_out.end()) return of_positions;
   const auto keeps_positions = [&](const Partition& p) {
     for (std::size_t k = 0; k < of_positions.active.size(); ++k)
       if (of_positions.active[k] && !p.active[k]) return false;
@@ -34,7 +33,6 @@ Partition StaticEquations::partition_at_rest() const {
   Partition all = system_.partition(rows_, RowLevel::velocity);
   if (keeps_positions(all)) return all;
   Partition p = of_positions;
-  for (std::int32_t k = 0; k < rows_.size(); ++k) left_out[static_cast<std::size_t>(k)] = on_velocities(k);
   for (std::int32_t k = 0; k < rows_.size(); ++k) {
     if (!on_velocities(k)) continue;
     const auto row = static_cast<std::size_t>(k);

@@ -86,6 +86,15 @@ Failure contradicted_rest(std::span<const ElementLabel* const> moving) {
   return f;
 }
 
+void warn_of_rolling(std::span<const ElementLabel* const> holding, Diagnostics& warnings) {
+  for (const ElementLabel* label : holding) {
+    warnings.warning("rest-by-rolling", label->at,
+                     fmt::format("{} holds velocities: where the model rests depends on where the search for it "
+                                 "begins, as it does where a wheel rolls there",
+                                 label->full_text()));
+  }
+}
+
 }  // namespace
 
 Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op, const StaticsOptions& options,
@@ -116,13 +125,7 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   op = std::move(*assembled);
   const VelocityRowsAtRest on_velocities = velocity_rows(system, op);
   if (!on_velocities.moving.empty()) return tl::unexpected(contradicted_rest(on_velocities.moving));
-  for (const ElementLabel* label : on_velocities.holding) {
-    if (in_course) break;
-    findings.warnings.warning("rest-by-rolling", label->at,
-                              fmt::format("{} holds velocities: where the model rests depends on where the search for "
-                                          "it begins, as it does where a wheel rolls there",
-                                          label->full_text()));
-  }
+  if (!in_course) warn_of_rolling(on_velocities.holding, findings.warnings);
   if (!in_course) op.mode = AnalysisMode::statics;
 
   EquilibriumSearch search(system, std::move(op), options, report, findings);
