@@ -11,9 +11,9 @@
 #include <ctime>
 #include <string>
 
+#include "base/arbitrary_vector.h"
 #include "distributed/mumps_call.h"
 #include "distributed/team.h"
-#include "eigenvalues/arbitrary_vector.h"
 #include "elements/catalogue.h"
 #include "hanging_chain.h"
 #include "hinged_lattice.h"
