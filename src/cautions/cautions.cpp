@@ -46,6 +46,19 @@ void disproportion(const System& system, const LinearSystem& linear, Diagnostics
                           system.layout().coordinate_text(found->coordinate), found->times, s.text, s.owner.text()));
 }
 
+// Files of matrices show all digits that a number has, with no word of how many are right.
+void few_digits(const System& system, const OperatingPoint& op, const LinearSystem& linear, Diagnostics& out) {
+  constexpr double worth_a_word = 1e-8;
+  const LeastKnownRate found = least_known_rate(system, op, linear);
+  if (found.part <= worth_a_word) return;
+  const StateLabel& s = linear.model.states[found.state];
+  out.warning(
+      "rounded-matrix", {},
+      fmt::format("rounding leaves few digits: what the matrices make of the rate of {} of {} may be off by {:.0e} "
+                  "of its size",
+                  s.text, s.owner.text(), found.part));
+}
+
 // A difference in a slope that the linear model does not see, or a jump.
 void kinks(const System& system, const Motion& motion, Diagnostics& out) {
   for (const Kink& k : system.kinks(motion)) out.warning("kink", k.of->at, k.text);
@@ -95,7 +108,9 @@ Diagnostics cautions_of_point(const System& system, const OperatingPoint& op, co
 
 Diagnostics cautions_of_matrices(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                  double left_by_integration) {
-  return cautions_of_point(system, op, linear, nullptr, left_by_integration);
+  Diagnostics out = cautions_of_point(system, op, linear, nullptr, left_by_integration);
+  few_digits(system, op, linear, out);
+  return out;
 }
 
 Diagnostics cautions(const System& system, const OperatingPoint& op, const LinearSystem& linear,

@@ -15,7 +15,7 @@ namespace dynalin {
 // it.
 Diagnostics cautions(const System&, const OperatingPoint&, const LinearSystem&, const EigenSolution&,
                      double left_by_integration = 0);
-// Those among them that are true of matrices as well.
+// Those among them that are true of matrices as well, and how few digits these have.
 Diagnostics cautions_of_matrices(const System&, const OperatingPoint&, const LinearSystem&,
                                  double left_by_integration = 0);
 

@@ -64,6 +64,19 @@ double relative_size(const System& system, const OperatingPoint& op, const Linea
   return size > 0 ? largest(of) / size : 0;
 }
 
+LeastKnownRate least_known_rate(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  const Eigen::VectorXd unit = units_of_states(system, op, linear);
+  const Eigen::MatrixXd unknown = linear.rounding + linear.uncertainty;
+  LeastKnownRate found;
+  for (Eigen::Index r = 0; r < linear.A.rows(); ++r) {
+    const double size = (linear.model.A.row(r).cwiseAbs() * unit.asDiagonal()).maxCoeff();
+    if (!(size > 0)) continue;
+    const double part = (unknown.row(r).cwiseAbs() * unit.asDiagonal()).maxCoeff() / size;
+    if (part > found.part) found = {part, static_cast<std::size_t>(r)};
+  }
+  return found;
+}
+
 Eigen::MatrixXd rounding_of_velocities(const System& system, const OperatingPoint& op, const LinearSystem& linear,
                                        const Linearization& linearize_at) {
   if (relative_size(system, op, linear, linear.rounding) <= suspicious) return {};

@@ -17,6 +17,14 @@ namespace dynalin {
 // motion taken as units.
 double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
 
+// The state whose rate is known least: what roundings may leave in an entry of its row of the state matrix, against the
+// largest entry of the row, in the same units. Rows without entries are known.
+struct LeastKnownRate {
+  double part = 0;
+  std::size_t state = 0;
+};
+LeastKnownRate least_known_rate(const System&, const OperatingPoint&, const LinearSystem&);
+
 // Degrees of freedom that the model has at the point and not a thousandth of its length beside it, as constraint rows
 // depend on others here alone (those that the linear system has left out). Rows that do so everywhere are redundant and
 // no reason for any.

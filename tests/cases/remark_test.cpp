@@ -52,6 +52,11 @@ const std::vector<Remark>& table() {
        "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=2\nJOINT/3, REVOLUTE, I=40, J=21\n"
        "JOINT/4, REVOLUTE, I=41, J=31\nEND\n",
        "SIMULATE/DYNAMICS, END=1E-3, STEPS=1\n"},
+      {"rounded-matrix", 0,
+       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, REULER=0.3, 0.7, 0.2\nPART/2, MASS=1, CM=20, IP=1, 1, 1E-9\n"
+       "MARKER/20, REULER=0.3, 0.7, 0.2\nJOINT/1, REVOLUTE, I=20, J=1\nSPRINGDAMPER/1, ROTATIONAL, I=20, J=1, "
+       "KT=1\nEND\n",
+       "LINEAR/STATEMAT, FILE=m\n"},
       {"rest-by-rolling", 8, SLIDER(BODY) "GCON/1, FUNCTION=VZ(20)\nEND\n", "SIMULATE/STATICS\n"},
       {"joint-in-stiction", 8, SLIDER(BODY) "FRICTION/1, JOINT=1, FRICTION_FORCE_PRELOAD=3\nEND\n",
        "LINEAR/EIGENSOL\n"},
