@@ -77,12 +77,16 @@ void BoundExpression::find_kink(const Motion& motion, double length, const Eleme
   };
   // The size of a vector that is zero grows whichever way it moves.
   expression_.evaluate<double>(values, std::span(scratch.partials), scratch.plain);
+  const auto add_size = [&](const Span& size) {
+    add(fmt::format("has a kink here: {} is 0 and grows whichever way it moves, and its slope is taken as 0",
+                    size.text()));
+  };
   for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
     const double slope = scratch.partials[k];
     if (!is_size(bound_atoms()[k]) || values[k] != 0.0 || slope == 0.0) continue;
-    return add(fmt::format("has a kink here: {} is 0 and grows whichever way it moves, and its slope is taken as 0",
-                           expression_.atoms()[k].at.text()));
+    return add_size(expression_.atoms()[k].at);
   }
+  if (const auto size = expression_.size_of_nothing(scratch.plain)) return add_size(*size);
   // Those of routines are their own.
   if (!expression_.has_switches() || !expression_.program().routines.empty()) return;
   for (std::size_t k = 0; k < bound_atoms().size(); ++k) {

@@ -79,7 +79,13 @@ TEST_F(Kinks, are_found_where_rounding_has_left_the_point_beside_them) {
 TEST_F(Kinks, are_sizes_of_vectors_that_are_zero) {
   EXPECT_THAT(said(block("-100*DX(2)-5*VM(2)")),
               HasSubstr("has a kink here: VM(2) is 0 and grows whichever way it moves, and its slope is taken as 0"));
-  EXPECT_THAT(said(block("-100*DX(2)-5*VM(2)**2")), Not(HasSubstr("kink")));
+  for (const char* size : {"MAG(VXYZ(2))", "MAG(2*VXYZ(2))", "MAG([DX(2),3*DX(2),0])"})
+    EXPECT_THAT(said(block(std::string("-100*DX(2)-5*") + size)),
+                HasSubstr("has a kink here: " + std::string(size) +
+                          " is 0 and grows whichever way it moves, and its "
+                          "slope is taken as 0"));
+  for (const char* smooth : {"VM(2)**2", "MAG(2*VXYZ(2))**2", "DX(2)*MAG(2*VXYZ(2))", "MAG([DX(2)**2,VX(2)**3,0])"})
+    EXPECT_THAT(said(block(std::string("-100*DX(2)-5*") + smooth)), Not(HasSubstr("kink"))) << smooth;
 }
 
 TEST_F(Kinks, are_found_in_values_that_functions_read) {
