@@ -1,6 +1,7 @@
 #include "analysis/initial.h"
 
 #include "analysis/assembly_moves.h"
+#include "analysis/stated_turns.h"
 
 namespace dynalin {
 
@@ -14,6 +15,7 @@ Result<OperatingPoint> initial_conditions(const System& system, const OperatingP
     return op;
   };
   const auto assemble = [&](OperatingPoint begun) {
+    take_stated_turns(system, restated, begun);
     auto op = assemble_position(system, std::move(begun), findings, restated);
     if (op) warn_of_moves(system, from, *op, findings.warnings);
     return op;

@@ -64,6 +64,13 @@ void kinks(const System& system, const Motion& motion, Diagnostics& out) {
   for (const Kink& k : system.kinks(motion)) out.warning("kink", k.of->at, k.text);
 }
 
+// A vibration that is damped just so much that it does not swing has two equal values and one shape: rounding moves
+// them apart along either axis, by far more than the equal values of equal parts.
+bool at_the_limit(const EigenMode& m) {
+  constexpr double rounding = 1e-11;
+  return m.cluster_size > 1 && m.error_bound_hz > rounding * std::abs(m.eigenvalue_hz);
+}
+
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
   int falling = 0, others = 0, elsewhere = 0;
@@ -75,7 +82,7 @@ void overdamping(const System& system, const LinearSystem& linear, const EigenSo
       elsewhere += m.is_real ? 1 : 2;
       continue;
     }
-    if (!m.is_real) continue;
+    if (!m.is_real || at_the_limit(m)) continue;
     const bool falls = m.eigenvalue_hz.real() < 0;
     ++(falls ? falling : others);
     if (falls && !slowest) slowest = &m, number = k + 1;

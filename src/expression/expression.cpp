@@ -120,6 +120,10 @@ bool Expression::reaches(std::size_t atom, const ExpressionWorkspace<T>& workspa
 template bool Expression::reaches(std::size_t, const ExpressionWorkspace<double>&) const;
 template bool Expression::reaches(std::size_t, const ExpressionWorkspace<TimeTaylor<double>>&) const;
 
+std::optional<Span> Expression::size_of_nothing(ExpressionWorkspace<double>& workspace) const {
+  return program_->size_of_nothing(workspace);
+}
+
 template <class T>
 std::optional<UndefinedOperation> Expression::find_undefined(std::span<const T> atom_values,
                                                              UndefinedSearch search) const {

@@ -154,6 +154,10 @@ class Expression {
   template <class T>
   bool reaches(std::size_t atom, const ExpressionWorkspace<T>&) const;
 
+  // The call of a size that is zero and grows in every direction, after an evaluation with partials, where its slope
+  // counts as zero.
+  std::optional<Span> size_of_nothing(ExpressionWorkspace<double>&) const;
+
   // Whether it may have kinks or jumps along a motion, and functions that change their sign where it has: as many in
   // the same order at all atom values.
   bool has_switches() const;

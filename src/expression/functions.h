@@ -50,6 +50,10 @@ struct Function {
   bool kinked = false;            // has kinks or jumps, whatever its arguments
   bool flat_at_kinks = false;     // of one of them: it is continuous there, and its slope counts as zero
   double growth_at_infinity = 0;  // the order in which it grows where its slope is infinite, 0 if that is not known
+  bool of_vector = false;         // its arguments are components; messages show the call as it is written
+  // The size of a vector: where that is zero it grows in every direction. Its slope counts as zero there, which is the
+  // mean over all of them, but along a motion, as constraints need it, it is not defined.
+  bool is_size = false;
 
   double operator()(std::span<const double> a) const { return on_double(a); }
   TimeTaylor<double> operator()(std::span<const TimeTaylor<double>> a) const { return on_taylor(a); }
@@ -77,6 +81,9 @@ const Function* find_function(std::string_view name);
 bool has_kinks(std::string_view name);
 // The operator ** with an exponent that varies.
 const Function& variable_power();
+// MAG of a vector of three components, and the first component of its UV.
+const Function& vector_size();
+const Function& vector_direction();
 
 // Upper-case names that the language knows and this program does not evaluate yet.
 std::span<const std::string_view> functions_not_built();

@@ -74,6 +74,8 @@ class ExpressionProgram {
   void differentiate(std::span<T> partials, ExpressionWorkspace<T>&) const;
   template <class T>
   std::optional<UndefinedOperation> find_undefined(std::span<const T> atom_values, UndefinedSearch) const;
+  // After a reverse sweep: a size that is zero, matters to the result and grows whichever way its vector goes.
+  std::optional<Span> size_of_nothing(ExpressionWorkspace<double>&) const;
 
   // What a node of a routine reads.
   template <class T>

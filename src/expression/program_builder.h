@@ -89,6 +89,8 @@ class ProgramBuilder {
   // Replaces a node whose operands are all constant by its value.
   Operand fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at);
   void report_domain(std::string reason, const Span& at);
+  // Of a vector of three measures, the measure that is its size.
+  std::optional<Operand> size_of_measures(const Operand& v, const Span& at);
 
   Diagnostics& diagnostics_;
   ExpressionProgram program_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "expression/program.h"
@@ -85,8 +86,9 @@ void visit_call_in_passes(const ExpressionProgram& program, const Function& func
     }
     if (count == 0) return;
     const Argument result = function(std::span<const Argument>(arguments.data(), operands.size()));
+    const bool no_slope = std::is_same_v<T, Taylor> && function.is_size && value_of(result) == 0.0;
     for (std::size_t s = 0; s < count; ++s) {
-      const S partial = Scalar::partial(result, s);
+      const S partial = no_slope ? S(std::numeric_limits<double>::quiet_NaN()) : Scalar::partial(result, s);
       const bool independent = function.zero_partial == ZeroPartial::flat && is_zero(partial);
       if (!independent) visit(node(seeded[s]), T(partial));
       arguments[seeded[s]] = plain(seeded[s]);

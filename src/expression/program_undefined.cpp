@@ -104,8 +104,13 @@ std::vector<double> argument_values(const ExpressionProgram& program, const Expr
 }
 
 // Why a node has no finite value while its operands have.
-std::string reason_of_value(const ExpressionNode& node, const std::vector<double>& arguments) {
+std::string reason_of_value(const ExpressionNode& node, const std::vector<double>& arguments, const Span& at) {
   std::string reason;
+  if (node.kind == Kind::call && node.function->of_vector) {
+    const bool in_domain = node.function->domain(arguments).empty();
+    return in_domain ? fmt::format("the result of {} is too large", at.text())
+                     : fmt::format("{} has no value where its vector is zero", at.text());
+  }
   if (node.kind == Kind::call) reason = node.function->domain(arguments);
   if (node.kind == Kind::power) reason = variable_power().domain(arguments);
   if (node.kind == Kind::divide && arguments[1] == 0.0) reason = "division by 0";
@@ -139,12 +144,14 @@ UndefinedOperation ExpressionProgram::explain_value(std::size_t i, const std::ve
   const std::string name = operator_name(node);
   if (!value_is_finite && node.kind == Kind::routine)
     return {name, places[i], routines[static_cast<std::size_t>(node.a)].routine->reason_of_value(arguments)};
-  if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments)};
+  if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments, places[i])};
   if (node.kind == Kind::routine) {
     const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
     return {name, places[i],
             routine.name() + " gives no derivative in time of its value: an entry ..._derivatives would"};
   }
+  if (node.kind == Kind::call && node.function->is_size)
+    return {name, places[i], std::string(places[i].text()) + " has no derivative where it is 0"};
   return {name, places[i], fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
 }
 
@@ -162,6 +169,8 @@ UndefinedOperation ExpressionProgram::explain_partial(std::size_t i, const std::
     const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
     return {name, places[i], routine.reason_of_partials(argument_values(*this, node, value))};
   }
+  if (node.kind == Kind::call && node.function->is_size)
+    return {name, places[i], std::string(places[i].text()) + " has no derivative where it is 0"};
   return {name, places[i],
           fmt::format("the {}derivative of {} is {} at {}", in_time ? "second " : "", name,
                       infinite ? "infinite" : "not defined", in_words(argument_values(*this, node, value)))};

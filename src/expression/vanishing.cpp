@@ -84,6 +84,21 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
   return smooth[nodes.size() - 1];
 }
 
+std::optional<Span> ExpressionProgram::size_of_nothing(ExpressionWorkspace<double>& workspace) const {
+  bool ordered = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const ExpressionNode& node = nodes[i];
+    if (node.kind != Kind::call || !node.function->is_size) continue;
+    if (!workspace.reached[i] || workspace.value[i] != 0.0 || workspace.adjoint[i] == 0.0) continue;
+    if (!ordered) is_differentiable(workspace), ordered = true;
+    const std::span vector(operands.data() + node.b, static_cast<std::size_t>(node.a));
+    // A vector that leaves zero faster than the model moves has a size without a kink.
+    const auto grows = [&](std::int32_t k) { return workspace.order[static_cast<std::size_t>(k)] <= 1; };
+    if (std::any_of(vector.begin(), vector.end(), grows)) return places[i];
+  }
+  return std::nullopt;
+}
+
 template bool ExpressionProgram::is_differentiable(ExpressionWorkspace<double>&) const;
 template bool ExpressionProgram::is_differentiable(ExpressionWorkspace<Taylor>&) const;
 

@@ -1,5 +1,7 @@
 #include "expression/vector_functions.h"
 
+#include <algorithm>
+
 namespace dynalin {
 
 namespace {
@@ -13,34 +15,45 @@ constexpr std::string_view spline_arguments =
     "id          of the SPLINE\n"
     "derivative  0, 1 or 2, with respect to x";
 
+using SizeArguments = VectorAtom::SizeArguments;
 constexpr std::array<VectorAtom, 10> atoms = {{
     {"DXYZ",
      {"DX", "DY", "DZ"},
-     {"i [, j [, k]]", "the displacement [DX, DY, DZ] of i from j, in the axes of k", "length", marker_ids}},
+     {"i [, j [, k]]", "the displacement [DX, DY, DZ] of i from j, in the axes of k", "length", marker_ids},
+     "DM"},
     {"VXYZ",
      {"VX", "VY", "VZ"},
      {"i [, j [, k [, l]]]", "the velocity [VX, VY, VZ] of i relative to j, in the axes of k, derivative taken in l",
-      "length/time", marker_ids}},
+      "length/time", marker_ids},
+     "VM",
+     SizeArguments::i_j_l},
     {"ACCXYZ",
      {"ACCX", "ACCY", "ACCZ"},
      {"i [, j [, k [, l]]]",
       "the acceleration [ACCX, ACCY, ACCZ] of i relative to j, in the axes of k, derivative taken in l", "length/time²",
-      marker_ids}},
+      marker_ids},
+     "ACCM",
+     SizeArguments::i_j_l},
     {"WXYZ",
      {"WX", "WY", "WZ"},
      {"i [, j [, k]]", "the angular velocity [WX, WY, WZ] of i relative to j, in the axes of k", "rad/time",
-      marker_ids}},
+      marker_ids},
+     "WM"},
     {"WDTXYZ",
      {"WDTX", "WDTY", "WDTZ"},
      {"i [, j [, k [, l]]]",
       "the angular acceleration [WDTX, WDTY, WDTZ] of i relative to j, in the axes of k, derivative taken in l",
-      "rad/time²", marker_ids}},
+      "rad/time²", marker_ids},
+     "WDTM",
+     SizeArguments::i_j_l},
     {"FXYZ",
      {"FX", "FY", "FZ"},
-     {"i [, j [, k]]", "the force [FX, FY, FZ] on marker i, in the axes of k", "force", marker_ids}},
+     {"i [, j [, k]]", "the force [FX, FY, FZ] on marker i, in the axes of k", "force", marker_ids},
+     "FM"},
     {"TXYZ",
      {"TX", "TY", "TZ"},
-     {"i [, j [, k]]", "the torque [TX, TY, TZ] on marker i, in the axes of k", "force·length", marker_ids}},
+     {"i [, j [, k]]", "the torque [TX, TY, TZ] on marker i, in the axes of k", "force·length", marker_ids},
+     "TM"},
     {"UVX",
      {"UVX.X", "UVX.Y", "UVX.Z"},
      {"i [, k]", "the x axis of marker i, a vector of length 1, in the axes of k", "1", axis_markers}},
@@ -133,6 +146,11 @@ const typename Table::value_type* find_in(const Table& table, std::string_view n
 
 std::span<const VectorAtom> vector_atoms() { return atoms; }
 const VectorAtom* find_vector_atom(std::string_view name) { return find_in(atoms, name); }
+const VectorAtom* vector_atom_of(std::string_view first_component) {
+  const auto found =
+      std::ranges::find_if(atoms, [&](const VectorAtom& v) { return v.components[0] == first_component; });
+  return found == atoms.end() ? nullptr : &*found;
+}
 std::span<const SpecialFunction> special_functions() { return special; }
 const SpecialFunction* find_special_function(std::string_view name) { return find_in(special, name); }
 

@@ -16,9 +16,14 @@ struct VectorAtom {
   std::string_view name;
   std::array<std::string_view, 3> components;
   FunctionText text;
+  // The function that is its size, "" if that is constant, and which arguments that has.
+  std::string_view size{};
+  enum class SizeArguments : std::uint8_t { i_j, i_j_l } size_arguments = SizeArguments::i_j;
 };
 std::span<const VectorAtom> vector_atoms();
 const VectorAtom* find_vector_atom(std::string_view upper_case_name);
+// The one with that first component, nullptr if there is none.
+const VectorAtom* vector_atom_of(std::string_view first_component);
 
 struct SpecialFunction {
   enum class Kind : std::uint8_t {

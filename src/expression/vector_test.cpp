@@ -24,7 +24,7 @@ TEST(Vectors, constants_follow_the_rules_of_algebra) {
 }
 
 TEST(Vectors, functions_of_markers_are_three_atoms) {
-  const ParsedText parsed = parse("DXYZ(1,2)*VXYZ(1,2,3,4)+MAG(FXYZ(7))");
+  const ParsedText parsed = parse("DXYZ(1,2)*VXYZ(1,2,3,4)+MAG(FXYZ(7,0,9))");
   ASSERT_THAT(parsed.problems(), IsEmpty());
   std::vector<std::string> names;
   for (const Atom& a : parsed.expression.atoms()) names.emplace_back(a.function->name);
@@ -46,11 +46,61 @@ TEST(Vectors, transformed_components_use_nine_direction_cosines) {
 }
 
 TEST(Vectors, a_component_used_twice_keeps_its_whole_derivative) {
-  const ParsedText parsed = parse("MAG(DXYZ(1,2))");
+  const ParsedText parsed = parse("MAG(DXYZ(1,2,3))");
   const auto r = evaluate<double>(parsed.expression, {2, 3, 6});
   EXPECT_DOUBLE_EQ(r.value, 7);
   EXPECT_DOUBLE_EQ(r.partial[1], 3.0 / 7);
-  EXPECT_TRUE(fault("MAG(DXYZ(1,2))", {0, 0, 0}).has_value());
+  const auto u = evaluate("[1,10,100]*UV(DXYZ(1,2,3))", {2, 3, 6});
+  EXPECT_DOUBLE_EQ(u.value, 632.0 / 7);
+  EXPECT_NEAR(u.partial[0], 1.0 / 7 - 2 * 632.0 / 343, 1e-15);
+  EXPECT_NEAR(u.partial[2], 100.0 / 7 - 6 * 632.0 / 343, 1e-14);
+}
+
+TEST(Vectors, sizes_of_measures_are_measures) {
+  const struct {
+    const char* text;
+    const char* size;
+    std::array<std::int32_t, 5> arguments;
+  } rows[] = {
+      {"MAG(DXYZ(1,2))", "DM", {1, 2}},
+      {"MAG(DXYZ(1,2,1))", "DM", {1, 2}},
+      {"MAG(VXYZ(1,2,2,4))", "VM", {1, 2, 4}},
+      {"MAG(VXYZ(1))", "VM", {1}},
+      {"MAG(ACCXYZ(1,2,0,4))", "ACCM", {1, 2, 4}},
+      {"MAG(WXYZ(1,2))", "WM", {1, 2}},
+      {"MAG(WDTXYZ(1,2,1,4))", "WDTM", {1, 2, 4}},
+      {"MAG(FXYZ(1,2))", "FM", {1, 2}},
+      {"MAG(TXYZ(1))", "TM", {1}},
+  };
+  for (const auto& row : rows) {
+    const ParsedText parsed = parse(row.text);
+    ASSERT_THAT(parsed.problems(), IsEmpty()) << row.text;
+    ASSERT_EQ(parsed.expression.atoms().size(), 1u) << row.text;
+    EXPECT_EQ(parsed.expression.atoms()[0].function->name, row.size) << row.text;
+    EXPECT_EQ(parsed.expression.atoms()[0].argument, row.arguments) << row.text;
+    EXPECT_EQ(parsed.expression.atoms()[0].at.text(), row.text);
+  }
+  // Axes of a marker that the size would not read, and what is no vector of measures.
+  for (const char* text :
+       {"MAG(DXYZ(1,2,3))", "MAG(-DXYZ(1,2))", "MAG([DX(1),DY(1),DX(1)])", "MAG([DX(1),DY(1),DZ(2)])", "MAG(UVX(1))"})
+    EXPECT_NE(parse(text).expression.atoms().size(), 1u) << text;
+  EXPECT_EQ(parse("MAG([DX(1),DY(1),DZ(1)])+DX(1)").expression.atoms().size(), 2u);
+}
+
+TEST(Vectors, that_are_zero_are_named_as_they_are_written) {
+  const UndefinedOperation none = fault("3*UV(2*DXYZ(1,2))*[1,0,0]", {0, 0, 0}).value();
+  EXPECT_EQ(none.function, "UV");
+  EXPECT_EQ(none.reason, "UV(2*DXYZ(1,2)) has no value where its vector is zero");
+  EXPECT_EQ(parse("UV([0,0,0])*[1,0,0]").first().message, "this has no finite value: UV of a vector that is zero");
+  // A size has a value there and, but along a motion, a slope of 0.
+  EXPECT_FALSE(fault("MAG(2*DXYZ(1,2))", {0, 0, 0}).has_value());
+  const ParsedText size = parse("3*MAG(2*DXYZ(1,2))");
+  const std::vector<TimeTaylor<double>> rests(3), leaves = {{0, 1, 0}, {}, {}};
+  const auto slope = size.expression.find_undefined<TimeTaylor<double>>(rests, UndefinedSearch::value_and_partials);
+  EXPECT_EQ(slope.value().reason, "MAG(2*DXYZ(1,2)) has no derivative where it is 0");
+  EXPECT_FALSE(size.expression.find_undefined<TimeTaylor<double>>(rests, UndefinedSearch::value));
+  const auto rate = size.expression.find_undefined<TimeTaylor<double>>(leaves, UndefinedSearch::value);
+  EXPECT_EQ(rate.value().reason, "MAG(2*DXYZ(1,2)) has no derivative where it is 0");
 }
 
 TEST(Vectors, numbers_and_vectors_are_told_apart_at_their_place) {

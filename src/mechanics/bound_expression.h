@@ -169,8 +169,9 @@ class BoundExpression {
   // Whether a partial of zero makes the gradient of an atom vanish where that is not defined.
   bool passes_over(std::size_t atom, const ExpressionScratch&) const;
   static bool is_size(const BoundAtom&);  // of a vector: never negative
-  void find_kink(const Motion&, double length, const ElementLabel& of, UndefinedValues&) const;
+  void find_kink(const Motion&, double length, const ElementLabel& of, UndefinedValues&, Derivatives) const;
   std::string kink_along(std::size_t moved, double size, std::vector<double>& values, ExpressionScratch&) const;
+  std::string kink_of_rate_along(std::size_t moved, double size, ExpressionScratch&) const;
   std::string undefined_in_value(const Motion&, const std::vector<double>& atoms) const;
   std::string undefined_in_gradient(const Motion&, const std::vector<double>& atoms, Derivatives) const;
 

@@ -66,7 +66,7 @@ std::string BoundExpression::undefined_in_gradient(const Motion& motion, const s
 
 void BoundExpression::find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& found,
                                      Derivatives derivatives) const {
-  if (found.length()) return find_kink(motion, *found.length(), of, found);
+  if (found.length()) return find_kink(motion, *found.length(), of, found, derivatives);
   if (const Lack lack = undefined(motion, derivatives); !lack.reason.empty())
     found.add(UndefinedValue{&of, of.full_text() + ": " + lack.reason, lack.in_value});
 }

@@ -38,10 +38,32 @@ void CardFields::mistaken(const Field& f, std::string_view what, std::string_vie
   wrong("field-form", f.at, fmt::format("{} is {}, {}, and should be {}", what, f.text, is, wanted), hint);
 }
 
-void CardFields::refuse_unread() {
-  for (const Field& f : card_.fields) {
-    if (f.form != Field::Form::wrong || std::find(told_.begin(), told_.end(), f.at.offset) != told_.end()) continue;
-    mistaken(f, "a field that is not used", "blank");
+void CardFields::refuse_beside_blank(std::size_t row, std::size_t number, std::size_t count, std::string_view what) {
+  if (!blank(row, number)) return;
+  for (std::size_t k = 1; k <= count; ++k) {
+    const Field& f = field(row, number + k);
+    if (f.blank()) continue;
+    wrong("field-missing", f.at, fmt::format("{} stands without {}", f.text, what));
+    return;
+  }
+}
+
+void CardFields::refuse_unread(std::string_view shape) {
+  const bool repeats = shape.back() == '+';
+  if (repeats) shape.remove_suffix(1);
+  const std::size_t rows = (shape.size() + 1) / 9;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const Field& f = at(i);
+    if (f.blank() || std::find(told_.begin(), told_.end(), f.at.offset) != told_.end()) continue;
+    if (f.form == Field::Form::wrong) {
+      mistaken(f, "a field that is not used", "blank");
+      continue;
+    }
+    const std::size_t row = i / 8, of_shape = repeats ? std::min(row, rows - 1) : row;
+    if (of_shape < rows && shape[of_shape * 9 + i % 8] == 'x') continue;
+    const std::string place = row == 0 ? std::string() : fmt::format(" of row {}", row + 1);
+    wrong("field-form", f.at, fmt::format("field {}{} is {}, and the card has none there", i % 8 + 2, place, f.text));
+    i = row * 8 + 7;  // one of a row is enough
   }
 }
 

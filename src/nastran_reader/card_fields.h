@@ -47,8 +47,10 @@ class CardFields {
   std::vector<Reference> list(std::size_t index, std::string_view what);
 
   void wrong(std::string_view code, const Span& at, std::string message, std::string hint = {});
-  // Fields that are nothing at all and that nobody asked for.
-  void refuse_unread();
+  // Of a field that is blank the `count` next ones are, too: they say something of it.
+  void refuse_beside_blank(std::size_t row, std::size_t number, std::size_t count, std::string_view what);
+  // Fields that are nothing at all and that nobody asked for, and those that stand where the card has none.
+  void refuse_unread(std::string_view shape);
 
  private:
   void mistaken(const Field&, std::string_view what, std::string_view wanted);
@@ -62,7 +64,11 @@ class CardFields {
 struct CardKind {
   std::string_view name;
   void (*read)(CardFields&, Deck&);
+  // Fields 2 to 9 of each row that mean something, whether or not they are read here: x, or - for one that stays blank.
+  // Behind + the last row may come again.
+  std::string_view shape;
 };
+inline constexpr std::string_view list_in_rows = "xxxxxxxx+";
 std::span<const CardKind> point_cards();
 std::span<const CardKind> element_cards();
 std::span<const CardKind> constraint_cards();

@@ -49,9 +49,16 @@ void rbe2(CardFields& c, Deck& deck) {
   r.components = c.components(c.field(0, 4), "CM");
   r.components_at = c.field(0, 4).at;
   if (r.components == 0 && c.good()) c.wrong("field-missing", r.components_at, "CM names no component");
-  std::size_t index = 3;
-  for (; index < c.count() && c.at(index).form != Field::Form::real; ++index) {
+  // A real is the thermal expansion, and behind it may stand its temperature alone.
+  int reals = 0;
+  for (std::size_t index = 3; index < c.count(); ++index) {
     if (c.at(index).blank()) continue;
+    if (c.at(index).form == Field::Form::real && ++reals <= 2) continue;
+    if (reals > 0) {
+      c.wrong("field-form", c.at(index).at, fmt::format("{} stands behind the thermal expansion", c.at(index).text),
+              "grids stand before it");
+      return;
+    }
     if (c.at(index).is_word("THRU")) {
       c.wrong("field-form", c.at(index).at, "THRU is not allowed here");
       return;
@@ -104,7 +111,10 @@ void rbar(CardFields& c, Deck& deck) {
 void spc(CardFields& c, Deck& deck) {
   const Reference set = c.id(0, 2, "the number of the set");
   for (const std::size_t first : {std::size_t{3}, std::size_t{6}}) {
-    if (first == 6 && c.blank(0, 6)) break;
+    if (first == 6 && c.blank(0, 6)) {
+      c.refuse_beside_blank(0, 6, 2, "a point");
+      break;
+    }
     Spc s;
     s.set = set, s.at = c.card().at;
     s.point = c.id(0, first, "the point");
@@ -122,7 +132,9 @@ void spc1(CardFields& c, Deck& deck) {
   const Reference set = c.id(0, 2, "the number of the set");
   const Components components = c.components(c.field(0, 3), "the components");
   // A range may be far wider than the points that are in it, and is kept as one.
-  if (c.field(0, 5).is_word("THRU") && c.blank(0, 7)) {
+  bool alone = c.field(0, 5).is_word("THRU");
+  for (std::size_t i = 5; i < c.count(); ++i) alone = alone && c.at(i).blank();
+  if (alone) {
     const Reference first = c.id(0, 4, "the first point"), last = c.id(0, 6, "the last point");
     if (c.good() && last.id <= first.id)
       c.wrong("field-range", c.field(0, 5).at, "THRU stands between a number and a larger one", "1 THRU 9");
@@ -144,8 +156,9 @@ void sum(CardFields& c, Deck& deck) {
 }
 
 constexpr CardKind kinds[] = {
-    {"MPC", mpc},   {"MPCADD", sum}, {"RBE2", rbe2}, {"RJOINT", rjoint},
-    {"RBAR", rbar}, {"SPC", spc},    {"SPC1", spc1}, {"SPCADD", sum},
+    {"MPC", mpc, list_in_rows},     {"MPCADD", sum, list_in_rows},       {"RBE2", rbe2, list_in_rows},
+    {"RJOINT", rjoint, "xxxx----"}, {"RBAR", rbar, "xxxxxxxx|x-------"}, {"SPC", spc, "xxxxxxx-"},
+    {"SPC1", spc1, list_in_rows},   {"SPCADD", sum, list_in_rows},
 };
 
 }  // namespace

@@ -68,8 +68,10 @@ void material(CardFields& c, Deck& deck) {
 }
 
 constexpr CardKind kinds[] = {
-    {"PLOTEL", element},    {"CROD", element},          {"CTRIA3", element}, {"CQUAD4", element},
-    {"PROD", rod_property}, {"PSHELL", shell_property}, {"MAT1", material},
+    {"PLOTEL", element, "xxx-----"},          {"CROD", element, "xxxx----"},
+    {"CTRIA3", element, "xxxxxxx-|xxxxxxxx"}, {"CQUAD4", element, "xxxxxxxx|xxxxxxxx"},
+    {"PROD", rod_property, "xxxxxx--"},       {"PSHELL", shell_property, "xxxxxxxx|xxx-----"},
+    {"MAT1", material, "xxxxxxxx|xxxx----"},
 };
 
 }  // namespace

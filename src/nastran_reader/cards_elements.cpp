@@ -59,7 +59,10 @@ void scalar_element(CardFields& c, Deck& deck) {
   }
   static const Field none;
   for (const std::size_t at : {std::size_t{4}, form <= '2' ? std::size_t{6} : std::size_t{5}}) {
-    if (c.blank(0, at)) continue;
+    if (c.blank(0, at)) {
+      if (form <= '2') c.refuse_beside_blank(0, at, 1, "a point");
+      continue;
+    }
     if (c.field(0, at).form == Field::Form::integer && c.field(0, at).integer == 0) continue;
     e.ends.push_back(form <= '2' ? c.freedom(c.field(0, at), c.field(0, at + 1)) : c.freedom(c.field(0, at), none));
   }
@@ -74,7 +77,10 @@ void scalar_property(CardFields& c, Deck& deck) {
   const bool spring = c.name() == "PELAS";
   const std::size_t step = spring ? 4 : 2;
   for (std::size_t first = 2; first < 10; first += step) {
-    if (c.blank(0, first)) continue;
+    if (c.blank(0, first)) {
+      c.refuse_beside_blank(0, first, step - 1, "the number of a property");
+      continue;
+    }
     const Reference id = c.id(0, first, "the number of the property");
     const double value = c.real(0, first + 1, "the value");
     if (spring && !c.blank(0, first + 2) && c.real(0, first + 2, "GE") != 0)
@@ -117,7 +123,10 @@ void pbush(CardFields& c, Deck& deck) {
       c.wrong("field-form", c.field(row, 2).at, "field 2 of a continuation is blank, and the letter stands in field 3");
       return;
     }
-    if (c.blank(row, 3)) continue;
+    if (c.blank(row, 3)) {
+      c.refuse_beside_blank(row, 3, 6, "a letter");
+      continue;
+    }
     const std::string letter = c.word(row, 3, "the kind of values");
     const auto any = [&] {
       for (std::size_t k = 4; k <= 9; ++k) {
@@ -147,11 +156,16 @@ void pbush(CardFields& c, Deck& deck) {
 }
 
 constexpr CardKind kinds[] = {
-    {"CONM2", conm2},           {"CONM1", conm1},           {"CELAS1", scalar_element}, {"CELAS2", scalar_element},
-    {"CELAS3", scalar_element}, {"CELAS4", scalar_element}, {"CDAMP1", scalar_element}, {"CDAMP2", scalar_element},
-    {"CDAMP3", scalar_element}, {"CDAMP4", scalar_element}, {"CMASS1", scalar_element}, {"CMASS2", scalar_element},
-    {"CMASS3", scalar_element}, {"CMASS4", scalar_element}, {"PELAS", scalar_property}, {"PDAMP", scalar_property},
-    {"PMASS", scalar_property}, {"CBUSH", cbush},           {"PBUSH", pbush},
+    {"CONM2", conm2, "xxxxxxx-|xxxxxx--"},  {"CONM1", conm1, "xxxxxxxx|xxxxxxxx|xxxxxxxx"},
+    {"CELAS1", scalar_element, "xxxxxx--"}, {"CELAS2", scalar_element, "xxxxxxxx"},
+    {"CELAS3", scalar_element, "xxxx----"}, {"CELAS4", scalar_element, "xxxx----"},
+    {"CDAMP1", scalar_element, "xxxxxx--"}, {"CDAMP2", scalar_element, "xxxxxx--"},
+    {"CDAMP3", scalar_element, "xxxx----"}, {"CDAMP4", scalar_element, "xxxx----"},
+    {"CMASS1", scalar_element, "xxxxxx--"}, {"CMASS2", scalar_element, "xxxxxx--"},
+    {"CMASS3", scalar_element, "xxxx----"}, {"CMASS4", scalar_element, "xxxx----"},
+    {"PELAS", scalar_property, "xxxxxxxx"}, {"PDAMP", scalar_property, "xxxxxxxx"},
+    {"PMASS", scalar_property, "xxxxxxxx"}, {"CBUSH", cbush, "xxxxxxxx|xxxxx---"},
+    {"PBUSH", pbush, list_in_rows},
 };
 
 }  // namespace

@@ -37,6 +37,8 @@ void header(CardFields& c, DirectMatrix& m) {
   if (out < 0 || out > 4) c.wrong("dmig-header", c.field(0, 6).at, fmt::format("TOUT is {} and should be 0 to 4", out));
   if (c.integer(c.field(0, 7), "POLAR") > 0 && m.type <= 2 && m.type > 0)
     c.wrong("dmig-header", c.field(0, 7).at, "POLAR is for complex matrices");
+  if (!c.blank(0, 8)) c.wrong("field-form", c.field(0, 8).at, "field 8 of a header is blank");
+  if (c.card().rows() > 1) c.wrong("field-form", c.card().end, "a header has no continuation");
   if (m.form == 9 && c.blank(0, 9)) c.wrong("dmig-header", c.card().end, "NCOL is missing, which IFO 9 needs");
 }
 
@@ -102,7 +104,7 @@ void param(CardFields& c, Deck& deck) {
   deck.parameters[name] = {value.text, value.at};
 }
 
-constexpr CardKind kinds[] = {{"DMIG", dmig}, {"PARAM", param}};
+constexpr CardKind kinds[] = {{"DMIG", dmig, list_in_rows}, {"PARAM", param, "xxx-----"}};
 
 }  // namespace
 

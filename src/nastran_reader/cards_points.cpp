@@ -50,7 +50,10 @@ void system_by_coordinates(CardFields& c, Deck& deck) {
 // Two systems may stand on one card.
 void system_by_points(CardFields& c, Deck& deck) {
   for (const std::size_t first : {std::size_t{2}, std::size_t{6}}) {
-    if (first == 6 && c.blank(0, 6)) break;
+    if (first == 6 && c.blank(0, 6)) {
+      c.refuse_beside_blank(0, 6, 3, "the number of a system");
+      break;
+    }
     System s;
     s.kind = kind_of(c.name());
     s.id = c.id(0, first, "the number of the system");
@@ -60,15 +63,15 @@ void system_by_points(CardFields& c, Deck& deck) {
 }
 
 constexpr CardKind kinds[] = {
-    {"GRID", grid},
-    {"SPOINT", scalar_points},
-    {"EPOINT", scalar_points},
-    {"CORD2R", system_by_coordinates},
-    {"CORD2C", system_by_coordinates},
-    {"CORD2S", system_by_coordinates},
-    {"CORD1R", system_by_points},
-    {"CORD1C", system_by_points},
-    {"CORD1S", system_by_points},
+    {"GRID", grid, "xxxxxxxx"},
+    {"SPOINT", scalar_points, list_in_rows},
+    {"EPOINT", scalar_points, list_in_rows},
+    {"CORD2R", system_by_coordinates, "xxxxxxxx|xxx-----"},
+    {"CORD2C", system_by_coordinates, "xxxxxxxx|xxx-----"},
+    {"CORD2S", system_by_coordinates, "xxxxxxxx|xxx-----"},
+    {"CORD1R", system_by_points, "xxxxxxxx"},
+    {"CORD1C", system_by_points, "xxxxxxxx"},
+    {"CORD1S", system_by_points, "xxxxxxxx"},
 };
 
 }  // namespace

@@ -120,7 +120,10 @@ void force(CardFields& c, Deck& deck) {
 void values(CardFields& c, std::vector<FreedomValue>& into, std::string_view what) {
   const Reference set = c.id(0, 2, "the number of the set");
   for (const std::size_t first : {std::size_t{3}, std::size_t{6}}) {
-    if (first == 6 && c.blank(0, 6)) break;
+    if (first == 6 && c.blank(0, 6)) {
+      c.refuse_beside_blank(0, 6, 2, "a point");
+      break;
+    }
     FreedomValue v;
     v.set = set;
     v.freedom = c.freedom(c.field(0, first), c.field(0, first + 1));
@@ -160,6 +163,11 @@ void tabled1(CardFields& c, Deck& deck) {
     const Field &x = c.at(i), &y = c.at(i + 1);
     if (x.is_word("ENDT") || y.is_word("ENDT")) {
       ended = true;
+      for (std::size_t k = x.is_word("ENDT") ? i + 1 : i + 2; k < c.count(); ++k) {
+        if (c.at(k).blank()) continue;
+        c.wrong("load-rules", c.at(k).at, fmt::format("{} stands behind ENDT", c.at(k).text));
+        break;
+      }
       break;
     }
     if (x.is_word("SKIP") || y.is_word("SKIP") || (x.blank() && y.blank())) continue;
@@ -183,9 +191,19 @@ void tabled1(CardFields& c, Deck& deck) {
 }
 
 constexpr CardKind kinds[] = {
-    {"EIGC", eigc},   {"FREQ", freq},       {"FREQ1", freq1},  {"FREQ2", freq2}, {"RLOAD1", rload1},
-    {"DLOAD", dload}, {"FORCE", force},     {"MOMENT", force}, {"DAREA", darea}, {"DPHASE", dphase},
-    {"DELAY", delay}, {"TABLED1", tabled1}, {"TIC", tic},
+    {"EIGC", eigc, "xxxxxxx-|xxxxxxx-+"},
+    {"FREQ", freq, list_in_rows},
+    {"FREQ1", freq1, "xxxx----"},
+    {"FREQ2", freq2, "xxxx----"},
+    {"RLOAD1", rload1, "xxxxxxx-"},
+    {"DLOAD", dload, list_in_rows},
+    {"FORCE", force, "xxxxxxx-"},
+    {"MOMENT", force, "xxxxxxx-"},
+    {"DAREA", darea, "xxxxxxx-"},
+    {"DPHASE", dphase, "xxxxxxx-"},
+    {"DELAY", delay, "xxxxxxx-"},
+    {"TABLED1", tabled1, "xxxx----|xxxxxxxx+"},
+    {"TIC", tic, "xxxxx---"},
 };
 
 }  // namespace

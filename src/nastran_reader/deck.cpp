@@ -44,7 +44,7 @@ void read_card(const Card& card, Deck& deck, Diagnostics& diagnostics) {
   if (found != readers().end()) {
     CardFields fields(card, diagnostics);
     found->second->read(fields, deck);
-    if (card.name != "PARAM") fields.refuse_unread();
+    fields.refuse_unread(found->second->shape);
   } else if (std::find(std::begin(idle_cards), std::end(idle_cards), card.name) != std::end(idle_cards)) {
     keep(deck.idle, card);
   } else {

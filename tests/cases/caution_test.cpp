@@ -30,6 +30,20 @@ TEST_F(Caution, overdamped_modes_name_their_part) {
   EXPECT_THAT(run(slide(100, 30), "LINEAR/EIGENSOL, NODAMPIN\n").err, Not(HasSubstr("overdamped")));
 }
 
+// At the limit two values are equal, and rounding decides whether they swing.
+TEST_F(Caution, vibrations_at_the_limit_of_swinging_are_not_overdamped) {
+  for (const auto& [k, c] : {std::pair(100.0, 20.0), std::pair(4.0, 4.0), std::pair(49.0, 14.0), std::pair(1e-4, 0.02)})
+    EXPECT_THAT(run(slide(k, c), "LINEAR/EIGENSOL\n").err, Not(HasSubstr("overdamped"))) << k;
+  EXPECT_THAT(run(slide(100, 20.0001), "LINEAR/EIGENSOL\n").err, HasSubstr("1 mode is overdamped"));
+  // Equal parts have equal values, which are those of modes of their own.
+  std::string two = slide(100, 30);
+  two.insert(
+      two.find("END"),
+      "PART/3, MASS=1, CM=30, IP=1,1,1, QG=1,0,0\nMARKER/30\nMARKER/31, REULER=90D,90D,0\nJOINT/3, TRANSLATIONAL, "
+      "I=31, J=1\nSPRINGDAMPER/3, TRANSLATION, I=30, J=1, K=100, C=30, LENGTH=1\n");
+  EXPECT_THAT(run(two, "LINEAR/EIGENSOL\n").err, HasSubstr("2 modes are overdamped"));
+}
+
 // A controller that moves the carriage has real modes, and without damping there is no vibration behind them.
 TEST_F(Caution, controllers_are_no_overdamped_modes) {
   std::string controlled = slide(100, 1);

@@ -8,6 +8,7 @@
 namespace dynalin::cases::kink_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -79,7 +80,13 @@ TEST_F(Kinks, are_found_where_rounding_has_left_the_point_beside_them) {
 TEST_F(Kinks, are_sizes_of_vectors_that_are_zero) {
   EXPECT_THAT(said(block("-100*DX(2)-5*VM(2)")),
               HasSubstr("has a kink here: VM(2) is 0 and grows whichever way it moves, and its slope is taken as 0"));
-  EXPECT_THAT(said(block("-100*DX(2)-5*VM(2)**2")), Not(HasSubstr("kink")));
+  for (const char* size : {"MAG(VXYZ(2))", "MAG(2*VXYZ(2))", "MAG([DX(2),3*DX(2),0])"})
+    EXPECT_THAT(said(block(std::string("-100*DX(2)-5*") + size)),
+                HasSubstr("has a kink here: " + std::string(size) +
+                          " is 0 and grows whichever way it moves, and its "
+                          "slope is taken as 0"));
+  for (const char* smooth : {"VM(2)**2", "MAG(2*VXYZ(2))**2", "DX(2)*MAG(2*VXYZ(2))", "MAG([DX(2)**2,VX(2)**3,0])"})
+    EXPECT_THAT(said(block(std::string("-100*DX(2)-5*") + smooth)), Not(HasSubstr("kink"))) << smooth;
 }
 
 TEST_F(Kinks, are_found_in_values_that_functions_read) {
@@ -88,6 +95,44 @@ TEST_F(Kinks, are_found_in_values_that_functions_read) {
       HasSubstr("ABS(VARVAL(3)) of VARIABLE/2 has a kink here"));
   EXPECT_THAT(said(block("-100*DX(2)", 0, "DIFF/1, FUNCTION=-DIF(1)-ABS(DIF(1))\n")),
               HasSubstr("of DIFF/1 has a kink here"));
+}
+
+// A stop with an exponent below 1 is infinitely stiff at the touch.
+TEST_F(Kinks, of_roots_have_an_infinite_slope_on_one_side) {
+  for (const char* at : {"0", "0.7"}) {
+    const std::string stop = fmt::format("IMPACT(DX(2),VX(2),{},100,0.5,0,0.1)", at);
+    EXPECT_THAT(
+        said(block("-100*DX(2)+" + stop, std::stod(at))),
+        HasSubstr("has a kink here: along DX(2) its slope by it changes from -infinite to -100, and -100 is taken"));
+  }
+  EXPECT_THAT(said(block("-DX(2)+BISTOP(DX(2),VX(2),-2,0,100,0.9,0,0.1)")), HasSubstr("changes from -1 to -infinite"));
+  EXPECT_THAT(said(block("-DX(2)+BISTOP(DX(2),VX(2),-2,0,100,1.0,0,0.1)")), HasSubstr("changes from -1 to -101"));
+  EXPECT_THAT(said(block("-DX(2)-7*ABS(DX(2))**0.5*DX(2)**2-ABS(DX(2))")),
+              AllOf(HasSubstr("to -2, and -1 is taken"), Not(HasSubstr("-infinite"))));
+}
+
+// A first-order DELAY reads the rate of its value, ẋ dF/dx, which bends where F has another curvature.
+TEST_F(Kinks, of_rates_are_said_where_a_delay_reads_them) {
+  const auto falling = [&](const std::string& value, const std::string& more = "") {
+    return said("Touch\nPART/1, GROUND\nMARKER/1\nDIFF/1, FUNCTION=-1-DIF(1), IC=0\n" + more +
+                "VARIABLE/1, FUNCTION=DELAY(" + value + ",0.1,0)\nEND\n");
+  };
+  EXPECT_THAT(
+      falling("STEP(DIF(1),0,0,1,1)"),
+      HasSubstr("STEP(DIF(1),0,0,1,1) of DELAY/1 (in VARIABLE/1) has a kink here: along DIF(1) the slope of its rate "
+                "by it changes from 0 to -6, and 0 is taken"));
+  EXPECT_THAT(falling("IMPACT(DIF(1),0,0,100,2,0,0.1)"), HasSubstr("by it changes from -200 to 0, and 0 is taken"));
+  EXPECT_THAT(falling("IMPACT(DIF(1),0,0,100,1.5,0,0.1)"),
+              HasSubstr("by it changes from -infinite to 0, and 0 is taken"));
+  EXPECT_THAT(falling("VARVAL(2)", "VARIABLE/2, FUNCTION=STEP(DIF(1),0,0,1,1)\n"),
+              HasSubstr("STEP(DIF(1),0,0,1,1) of VARIABLE/2 has a kink here: along DIF(1) the slope of its rate"));
+  for (const char* smooth : {"STEP5(DIF(1),0,0,1,1)", "STEP(DIF(1),-1,0,1,1)", "IMPACT(DIF(1),0,0,100,2.5,0,0.1)",
+                             "DIF(1)*ABS(DIF(1))**1.5"})
+    EXPECT_THAT(falling(smooth), Not(HasSubstr("kink"))) << smooth;
+  // What rests has no rate to bend.
+  EXPECT_THAT(said("Touch\nPART/1, GROUND\nMARKER/1\nDIFF/1, FUNCTION=-DIF(1), IC=0\nVARIABLE/1, "
+                   "FUNCTION=DELAY(STEP(DIF(1),0,0,1,1),0.1,0)\nEND\n"),
+              Not(HasSubstr("kink")));
 }
 
 TEST_F(Kinks, are_said_of_matrices_too) {

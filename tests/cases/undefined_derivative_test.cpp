@@ -68,7 +68,8 @@ TEST_F(UndefinedDerivatives, of_outputs_name_the_variable_and_the_function) {
       {"SIN(THETA(20,1))", "VARIABLE/7: THETA(20,1) has no derivative where it is 0 or π"},
       {"DX(20,1)+VX(20,1)*DY(20,1)+THETA(20,1)", "VARIABLE/7: THETA(20,1) has no derivative where it is 0 or π"},
       {"INCANG(21,1,22)", "VARIABLE/7: INCANG(21,1,22) has no derivative where it is 0 or π"},
-      {"MAG(DXYZ(20,1))", "VARIABLE/7: the derivative of SQRT is infinite at 0"},
+      {"UV(DXYZ(20,1))*[1,2,3]", "VARIABLE/7: UV(DXYZ(20,1)) has no value where its vector is zero"},
+      {"2+[1,2,3]*UV(2*DXYZ(20,1))", "VARIABLE/7: UV(2*DXYZ(20,1)) has no value where its vector is zero"},
   };
   for (const auto& [function, reason] : rows) {
     expect_refused(free_body("MARKER/22, QP=0.7,0,0\n" + output(function)), state_matrices, reason);
@@ -91,16 +92,19 @@ TEST_F(UndefinedDerivatives, behind_a_factor_that_vanishes_count_unless_it_vanis
   for (const char* f : {"DX(20,1)*PSI(20,1)", "PSI(20,1)**2", "SIN(PSI(20,1))*DM(20,1)"}) {
     expect_refused(free_body(output(f)), state_matrices, "VARIABLE/7: PSI(20,1) has no derivative");
   }
-  for (const char* f : {"DY(20,1)*SQRT(DX(20,1))", "SQRT(DX(20,1))**3", "SQRT(DX(20,1))*DM(20,1)", "DM(20,1)**2",
-                        "VM(20,1)*VX(20,1)", "0*PSI(20,1)", "0*SQRT(DX(20,1))", "COS(2*THETA(20,1))",
-                        "DX(20,1)*ABS(DX(20,1))**0.5", "IF(DX(20,1): SQRT(DX(20,1)), 0, SQRT(DX(20,1)))"}) {
+  for (const char* f :
+       {"DY(20,1)*SQRT(DX(20,1))", "SQRT(DX(20,1))**3", "SQRT(DX(20,1))*DM(20,1)", "DM(20,1)**2", "VM(20,1)*VX(20,1)",
+        "MAG(2*DXYZ(20,1))**2", "SQRT(DX(20,1))*MAG(2*DXYZ(20,1))", "0*PSI(20,1)", "0*SQRT(DX(20,1))",
+        "COS(2*THETA(20,1))", "DX(20,1)*ABS(DX(20,1))**0.5", "IF(DX(20,1): SQRT(DX(20,1)), 0, SQRT(DX(20,1)))"}) {
     EXPECT_TRUE(gradient(free_body(output(f))).empty()) << f;
   }
 }
 
 // They grow whichever way things move: the mean of all directions is none.
 TEST_F(UndefinedDerivatives, of_sizes_that_are_zero_count_as_none) {
-  for (const char* f : {"DM(20,1)", "VM(20,1)", "WM(20,1)", "3*DM(20,1)+VM(20,1)", "-4*SIN(WM(20,1))"}) {
+  for (const char* f : {"DM(20,1)", "VM(20,1)", "WM(20,1)", "3*DM(20,1)+VM(20,1)", "-4*SIN(WM(20,1))",
+                        "MAG(DXYZ(20,1))", "MAG(VXYZ(20,1,20,21))", "3*MAG(2*DXYZ(20,1))+MAG(DXYZ(20,1)-VXYZ(20,1))",
+                        "SIN(MAG([DX(20,1),2*DY(20,1),0]))"}) {
     EXPECT_TRUE(gradient(free_body(output(f))).empty()) << f;
   }
 }
@@ -118,6 +122,10 @@ TEST_F(UndefinedDerivatives, of_forces_states_and_constraints_are_refused_in_eve
       {"DIFF/3, IMPLICIT, FUNCTION=SQRT(DIF1(3))-DX(20,1)\n", "DIFF/3: the derivative of SQRT is infinite at 0"},
       {"GCON/3, FUNCTION=THETA(20,1)\n", "GCON/3: THETA(20,1) has no derivative where it is 0 or π"},
       {"GCON/3, FUNCTION=DM(20,1)\n", "GCON/3: DM(20,1) has no derivative where it is 0"},
+      {"GCON/3, FUNCTION=MAG(DXYZ(20,1))\n", "GCON/3: MAG(DXYZ(20,1)) has no derivative where it is 0"},
+      {"GCON/3, FUNCTION=MAG(2*DXYZ(20,1))\n", "GCON/3: MAG(2*DXYZ(20,1)) has no derivative where it is 0"},
+      {"SFORCE/3, TRANSLATIONAL, ACTIONONLY, I=20, J=21, FUNCTION=[1,0,0]*UV(VXYZ(20))\n",
+       "SFORCE/3: UV(VXYZ(20)) has no value where its vector is zero"},
       {"MOTION/3, I=20, J=1, X, FUNCTION=SQRT(TIME)\n", "MOTION/3: the derivative of SQRT is infinite at 0"},
       // Of an unread variable with the same fault the reader's own is named.
       {"VARIABLE/5, FUNCTION=SQRT(DX(20,1))\nSFORCE/3, TRANSLATIONAL, ACTIONONLY, I=20, J=21, FUNCTION=PSI(20,1)\n",
@@ -169,7 +177,8 @@ TEST_F(UndefinedDerivatives, that_nothing_reads_are_no_errors) {
 // Markers at 0.3 − 0.2 and 0.1: coincident but for rounding.
 TEST_F(UndefinedDerivatives, of_sizes_are_none_where_rounding_hides_that_they_are_zero) {
   const std::string near = "MARKER/22, PART=1, QP=0.1,0,0\nMARKER/23, PART=2, QP=-0.2,0,0\n";
-  EXPECT_TRUE(gradient(free_body(near + output("DM(23,22)"), ", QG=0.3,0,0")).empty());
+  for (const char* f : {"DM(23,22)", "MAG(DXYZ(23,22))", "MAG(DXYZ(23,22,23))"})
+    EXPECT_TRUE(gradient(free_body(near + output(f), ", QG=0.3,0,0")).empty()) << f;
 }
 
 class SmoothAngles : public UndefinedDerivatives {};

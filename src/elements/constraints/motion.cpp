@@ -20,6 +20,7 @@
 #include "elements/constraints/motion_routine.h"
 #include "elements/constraints/without_variables.h"
 #include "elements/families/pair_displacement.h"
+#include "expression/program.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/pair_state_source.h"
 #include "mechanics/row_terms.h"
@@ -102,7 +103,11 @@ struct PrescribedMotion {
   }
 };
 
-class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSource, public PairStateSource {
+class MotionKernel final : public Kernel,
+                           public WrenchSource,
+                           public RowTermsSource,
+                           public PairStateSource,
+                           public StartDisplacementSource {
  public:
   MotionKernel(const std::vector<PrescribedMotion>& elements, const std::vector<ElementLabel>& labels, Layout& layout)
       : labels_(&labels) {
@@ -162,6 +167,26 @@ class MotionKernel final : public Kernel, public WrenchSource, public RowTermsSo
       const double to = d.course >= 0 ? state(d.course, motion) : d.function.value(motion, scratch);
       row.size = std::abs(to);
       if (is_angle(d.element.kind)) row.driven_angle = to;
+    }
+  }
+
+  // A routine may not be asked before anything has begun.
+  void start_displacements(const Motion& start, std::vector<StartDisplacements>& out) const override {
+    ExpressionScratch scratch;
+    for (std::size_t k = 0; k < driven_.size(); ++k) {
+      const Driven& d = driven_[k];
+      const PrescribedMotion& e = d.element;
+      const bool turns = e.kind == Displacement::rotation;
+      if (!turns && e.kind != translation_of_joint) continue;
+      StartDisplacements s{.terms = {{e.i, e.j, turns}}, .of = &(*labels_)[k], .argument = {}};
+      if (e.level != DriveLevel::displacement) {
+        if (!e.icdisp) continue;
+        s.constant = *e.icdisp, s.argument = course_starts.displacement;
+      } else {
+        if (!e.function.program().routines.empty()) continue;
+        s.constant = d.function.value(start, scratch);
+      }
+      out.push_back(std::move(s));
     }
   }
 

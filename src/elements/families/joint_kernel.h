@@ -14,6 +14,7 @@
 #include "mechanics/held_axes.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
+#include "mechanics/start_displacement_source.h"
 #include "mechanics/start_source.h"
 #include "mechanics/wrench_source.h"
 
@@ -83,7 +84,11 @@ struct Joint {
 };
 
 template <class E>
-class JointKernel final : public Kernel, public WrenchSource, public StartSource, public HeldAxes {
+class JointKernel final : public Kernel,
+                          public WrenchSource,
+                          public StartSource,
+                          public StartDisplacementSource,
+                          public HeldAxes {
  public:
   static constexpr std::size_t n = Joint<E>::n;
 
@@ -103,7 +108,7 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
                            start.displacement,
                            start.velocity,
                            {start.argument, start.argument}});
-        start_places_.push_back({placed.I, placed.J, turns});
+        start_places_.push_back({placed.I, placed.J, turns, k});
       }
       joints_.push_back(std::move(placed));
     }
@@ -155,6 +160,18 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
     }
   }
 
+  void start_displacements(const Motion&, std::vector<StartDisplacements>& out) const override {
+    for (std::size_t k = 0; k < starts_.size(); ++k) {
+      const StartCondition& s = starts_[k];
+      const Joint<E>& joint = joints_[start_places_[k].joint].joint;
+      if (!s.displacement) continue;
+      out.push_back({.terms = {{joint.i, joint.j, start_places_[k].turns}},
+                     .constant = *s.displacement,
+                     .of = s.owner,
+                     .argument = s.arguments.displacement});
+    }
+  }
+
   const WrenchSource* wrenches() const override { return this; }
   MarkerId marker_I(std::size_t k) const override { return joints_[k].joint.i; }
   MarkerId marker_J(std::size_t k) const override { return joints_[k].joint.j; }
@@ -182,6 +199,7 @@ class JointKernel final : public Kernel, public WrenchSource, public StartSource
   struct StartPlace {
     MarkerPlace I, J;
     bool turns;
+    std::size_t joint;
   };
   std::vector<Placed> joints_;
   std::vector<StartCondition> starts_;

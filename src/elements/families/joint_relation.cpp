@@ -19,13 +19,18 @@ JointRelationKernel::JointRelationKernel(const std::vector<JointRelation>& relat
                                          Layout& layout)
     : labels_(&labels), layout_(&layout) {
   for (std::size_t k = 0; k < relations.size(); ++k) {
-    Relation r{
-        {}, relations[k].constant, layout.add_row(labels[k], row_name), relations[k].function, relations[k].routine};
+    Relation r{{},
+               {},
+               relations[k].constant,
+               layout.add_row(labels[k], row_name),
+               relations[k].function,
+               relations[k].routine};
     for (const JointRelation::Term& t : relations[k].terms) {
       PairDisplacement q(layout.marker(t.freedom.i), layout.marker(t.freedom.j), t.freedom.kind);
       if (t.freedom.kind == Displacement::rotation)
         q.count_turns(layout.count_turns(Measure::AZ, t.freedom.i, t.freedom.j));
       r.terms.emplace_back(q, t.factor);
+      r.freedoms.push_back(t.freedom);
       // Both freedoms of a CYLINDRICAL joint are one wrench.
       const bool again = !joints_.empty() && joints_.back().relation == k && joints_.back().i == t.freedom.i &&
                          joints_.back().j == t.freedom.j;
@@ -69,6 +74,20 @@ void JointRelationKernel::equations(const Motion& motion, Equations& eq) const {
       continue;
     }
     for (const auto& [q, factor] : r.terms) q.add_reaction_partials(motion, factor * lambda, eq);
+  }
+}
+
+// A routine says nothing that could be solved beforehand.
+void JointRelationKernel::start_displacements(const Motion&, std::vector<StartDisplacements>& out) const {
+  for (std::size_t k = 0; k < relations_.size(); ++k) {
+    const Relation& r = relations_[k];
+    if (r.written) continue;
+    StartDisplacements s{.terms = {}, .constant = r.constant, .of = &(*labels_)[k], .argument = {}};
+    for (std::size_t t = 0; t < r.terms.size(); ++t) {
+      const JointFreedom& f = r.freedoms[t];
+      s.terms.push_back({f.i, f.j, f.kind == Displacement::rotation, r.terms[t].second});
+    }
+    out.push_back(std::move(s));
   }
 }
 

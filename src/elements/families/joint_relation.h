@@ -9,6 +9,7 @@
 #include "expression/routine.h"
 #include "mechanics/bound_expression.h"
 #include "mechanics/row_terms.h"
+#include "mechanics/start_displacement_source.h"
 #include "mechanics/wrench_source.h"
 
 namespace dynalin {
@@ -28,7 +29,10 @@ struct JointRelation {
 // Σ factor_k q_k as drawn, angles as principal values.
 double drawn_value(const Model&, const JointRelation&);
 
-class JointRelationKernel final : public Kernel, public WrenchSource, public RowTermsSource {
+class JointRelationKernel final : public Kernel,
+                                  public WrenchSource,
+                                  public RowTermsSource,
+                                  public StartDisplacementSource {
  public:
   JointRelationKernel(const std::vector<JointRelation>&, const std::vector<ElementLabel>&, std::string_view row_name,
                       Layout&);
@@ -36,6 +40,7 @@ class JointRelationKernel final : public Kernel, public WrenchSource, public Row
   void constraints(const Motion&, ConstraintRows&) const override;
   void equations(const Motion&, Equations&) const override;
   void tell_row_terms(const Motion&, std::span<RowTerms>) const override;
+  void start_displacements(const Motion&, std::vector<StartDisplacements>&) const override;
   void undefined_values(const Motion&, UndefinedValues&) const override;
   // What each joint bears of the relation, on its marker I with the opposite on J.
   const WrenchSource* reported_wrenches() const override { return this; }
@@ -48,6 +53,7 @@ class JointRelationKernel final : public Kernel, public WrenchSource, public Row
  private:
   struct Relation {
     std::vector<std::pair<PairDisplacement, double>> terms;
+    std::vector<JointFreedom> freedoms;  // of the terms
     double constant;
     std::int32_t row;
     std::optional<Expression> written;

@@ -27,6 +27,7 @@
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
 #include "elements/forces/friction_kernel.h"
+#include "elements/forces/friction_unread.h"
 #include "elements/forces/friction_words.h"
 #include "model/model.h"
 
@@ -45,7 +46,8 @@ struct Friction {
   std::optional<double> bristle_stiffness;
   double bristle_damping = 0, viscosity = 0;
   bool i_yoke = false, j_yoke = false;
-  std::vector<std::pair<std::string_view, Span>> by_joint;  // what is written and not every joint reads
+  bool counts_preload = true;                                          // as INPUTS has it
+  std::vector<std::pair<std::string_view, Span>> stated, input_words;  // arguments, and words of INPUTS
 
   using F = Friction;
   static constexpr std::array<Argument<F>, 24> arguments = {{
@@ -123,47 +125,6 @@ struct Friction {
   }};
 };
 
-// Arguments, and words of INPUTS, that say nothing of joints with other surfaces.
-struct ReadBy {
-  std::string_view name;
-  std::array<bool, 6> surfaces{};  // by JointSurfaces
-
-  constexpr ReadBy(std::string_view name_, std::initializer_list<JointSurfaces> list) : name(name_) {
-    for (const JointSurfaces s : list) surfaces[static_cast<std::size_t>(s)] = true;
-  }
-  bool of(JointSurfaces s) const { return surfaces[static_cast<std::size_t>(s)]; }
-};
-constexpr auto read_by = [] {
-  using enum JointSurfaces;
-  return std::array{
-      ReadBy{"PIN_RADIUS", {hinge, sleeve, cross}},
-      ReadBy{"FRICTION_ARM", {hinge, cross}},
-      ReadBy{"BENDING_REACTION_ARM", {hinge, cross}},
-      ReadBy{"BALL_RADIUS", {ball}},
-      ReadBy{"REACTION_ARM", {slide}},
-      ReadBy{"INITIAL_OVERLAP", {slide, sleeve}},
-      ReadBy{"OVERLAP_DELTA", {slide, sleeve}},
-      ReadBy{"FRICTION_FORCE_PRELOAD", {slide, sleeve}},
-      ReadBy{"FRICTION_TORQUE_PRELOAD", {hinge, sleeve, cross, ball}},
-      ReadBy{"I_YOKE", {cross}},
-      ReadBy{"J_YOKE", {cross}},
-      ReadBy{"BENDING_MOMENT", {slide, hinge, sleeve, cross}},
-      ReadBy{"TORSIONAL_MOMENT", {slide}},
-  };
-}();
-
-// One warning for those of the arguments that are written.
-void warn_of_unread(std::initializer_list<std::string_view> arguments, std::string_view beside, ElementReader& reader) {
-  std::vector<std::string_view> written;
-  for (const std::string_view a : arguments) {
-    if (reader.given(a)) written.push_back(a);
-  }
-  if (written.empty()) return;
-  reader.warning("unread-argument", reader.at(written.front()),
-                 fmt::format("{} of {} {} nothing with {}", enumeration(written), reader.label().text(),
-                             written.size() == 1 ? "says" : "say", beside));
-}
-
 void read_options(Friction& e, JointFriction& out, ElementReader& reader) {
   if (const auto words = friction_words::read(e.effect, friction_words::effects, "EFFECT", reader);
       words && !words->empty()) {
@@ -171,21 +132,13 @@ void read_options(Friction& e, JointFriction& out, ElementReader& reader) {
     if (among(*words, FrictionEffect::stiction) != among(*words, FrictionEffect::sliding))
       out.law.effect = words->front().choice;
   }
-  if (out.law.effect == FrictionEffect::stiction) warn_of_unread({"MU_DYNAMIC"}, "EFFECT=STICTION", reader);
-  if (out.law.effect == FrictionEffect::sliding) {
-    warn_of_unread({"MU_STATIC", "TRANSITION_VELOCITY_COEFFICIENT", "MAX_STICTION_DEFORMATION"}, "EFFECT=SLIDING",
-                   reader);
-  }
   const auto words = friction_words::read(e.inputs, friction_words::inputs, "INPUTS", reader);
   if (words && !words->empty() && !among(*words, FrictionInput::all)) {
     out.of_force = among(*words, FrictionInput::force), out.of_bending = among(*words, FrictionInput::bending);
     out.of_torsion = among(*words, FrictionInput::torsion);
-    for (const auto& word : *words) e.by_joint.emplace_back(word.name, reader.at("INPUTS"));
-    if (!among(*words, FrictionInput::preload)) {
-      if (out.force_preload > 0) warn_of_unread({"FRICTION_FORCE_PRELOAD"}, "INPUTS without PRELOAD", reader);
-      if (out.torque_preload > 0) warn_of_unread({"FRICTION_TORQUE_PRELOAD"}, "INPUTS without PRELOAD", reader);
-      out.force_preload = out.torque_preload = 0;
-    }
+    for (const auto& word : *words) e.input_words.emplace_back(word.name, reader.at("INPUTS"));
+    e.counts_preload = among(*words, FrictionInput::preload);
+    if (!e.counts_preload) out.force_preload = out.torque_preload = 0;
   }
   if (const auto changes = friction_words::read(e.overlap_delta, friction_words::overlaps, "OVERLAP_DELTA", reader))
     out.overlap_growth = among(*changes, OverlapChange::increase)   ? 1
@@ -211,12 +164,11 @@ void read_bristles(const Friction& e, FrictionLaw& law, ElementReader& reader) {
     return;
   }
   excluded("EFFECT");
+  law.effect = FrictionEffect::all;
   if (!(e.mu_static > 0) || !(e.mu_dynamic > 0)) {
     reader.error("value-out-of-range", reader.at(e.mu_static > 0 ? "MU_DYNAMIC" : "MU_STATIC"),
                  fmt::format("the coefficients of {} must be more than 0 with LUGRE", reader.label().text()));
   }
-  warn_of_unread({"TRANSITION_VELOCITY_COEFFICIENT"}, "FORMULATION=LUGRE", reader);
-  if (e.bristle_stiffness) warn_of_unread({"MAX_STICTION_DEFORMATION"}, "BRISTLE_STIFFNESS_COEFFICIENT", reader);
   law.formulation = FrictionFormulation::lugre;
   law.bristle_stiffness = e.bristle_stiffness.value_or(e.mu_static / e.largest_deformation);
   law.bristle_damping = e.bristle_damping, law.viscosity = e.viscosity;
@@ -250,9 +202,10 @@ class FrictionSet final : public TypedSet<Friction> {
                    fmt::format("{} takes I_YOKE or J_YOKE, not both", reader.label().text()),
                    "a second FRICTION stands for the other bar of the cross");
     }
-    for (const ReadBy& r : read_by) {
-      if (reader.given(r.name)) e.by_joint.emplace_back(r.name, reader.at(r.name));
+    for (const Argument<Friction>& a : Friction::arguments) {
+      if (reader.given(a.name)) e.stated.emplace_back(a.name, reader.at(a.name));
     }
+    std::ranges::sort(e.stated, {}, [](const auto& argument) { return argument.second.offset; });
     JointFriction& f = frictions_[k];
     f.law.mu_static = e.mu_static, f.law.mu_dynamic = e.mu_dynamic;
     f.law.stiction_velocity = e.stiction_velocity, f.law.transition = e.transition;
@@ -319,14 +272,47 @@ class FrictionSet final : public TypedSet<Friction> {
         if (m.valid()) check_rotation(model, labels[k], m, diagnostics);
       }
     }
-    for (const auto& [name, at] : e.by_joint) {
-      const auto by =
-          std::find_if(read_by.begin(), read_by.end(), [&sought = name](const ReadBy& r) { return r.name == sought; });
-      if (by == read_by.end() || by->of(surfaces)) continue;
-      diagnostics.warning("unread-argument", at,
-                          fmt::format("{} of {} says nothing of {}, a {} joint", name, labels[k].text(), joint, type));
-    }
+    report_unread(k, {surfaces, fmt::format("{}, a {} joint", joint, type)}, diagnostics);
     if (f.i.valid() && f.j.valid()) f.drawn = drawn_frame(model, f.i, f.j);
+  }
+
+  // Of each argument once, of those for one reason together.
+  struct Joint {
+    JointSurfaces surfaces;
+    std::string text;
+  };
+  void report_unread(std::size_t k, const Joint& joint, Diagnostics& diagnostics) const {
+    struct Reason {
+      std::string_view beside;
+      std::vector<std::string_view> arguments;
+      Span at;
+    };
+    const auto says_nothing_of_joint = [&](std::string_view name, const Span& at) {
+      using friction_unread::read_by;
+      const auto by = std::ranges::find(read_by, name, &friction_unread::ReadBy::name);
+      if (by == read_by.end() || by->of(joint.surfaces)) return false;
+      diagnostics.warning("unread-argument", at,
+                          fmt::format("{} of {} says nothing of {}", name, labels[k].text(), joint.text));
+      return true;
+    };
+    for (const auto& [word, at] : elements[k].input_words) says_nothing_of_joint(word, at);
+    const Friction& e = elements[k];
+    const friction_unread::FrictionStated stated{e.force_preload, e.torque_preload, e.counts_preload,
+                                                 e.bristle_stiffness.has_value()};
+    std::vector<Reason> reasons;
+    for (const auto& [name, at] : e.stated) {
+      if (says_nothing_of_joint(name, at)) continue;
+      const std::string_view beside = friction_unread::unread_beside(name, stated, frictions_[k]);
+      if (beside.empty()) continue;
+      auto reason = std::ranges::find(reasons, beside, &Reason::beside);
+      if (reason == reasons.end()) reason = reasons.insert(reason, {beside, {}, at});
+      reason->arguments.push_back(name);
+    }
+    for (const Reason& r : reasons) {
+      diagnostics.warning("unread-argument", r.at,
+                          fmt::format("{} of {} {} nothing {}", enumeration(r.arguments), labels[k].text(),
+                                      r.arguments.size() == 1 ? "says" : "say", r.beside));
+    }
   }
 
   void report_twice(const Model& model, Diagnostics& diagnostics) const {

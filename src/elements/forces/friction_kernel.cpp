@@ -166,7 +166,7 @@ void JointFrictionKernel::wrench(const Motion& motion, std::size_t k, Partials w
 std::string JointFrictionKernel::domain_violation(const Motion& motion) const {
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const JointFriction& f = *placed_[k].element;
-    if (!f.pushes() || f.overlap_growth == 0 || !placed_[k].joint) continue;
+    if (!f.pushes() || !f.of_bending || f.overlap_growth == 0 || !placed_[k].joint) continue;
     const double left = overlap(f, pair_motion(motion, *placed_[k].I, *placed_[k].J).relative.p.z.value);
     if (left > 0) continue;
     return fmt::format("the parts of {} have slid apart: their overlap is {:g}", (*labels_)[k].full_text(), left);

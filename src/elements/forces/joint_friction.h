@@ -40,6 +40,12 @@ struct JointFriction {
   // Along or about z of both markers, not along axes of one.
   bool is_along_common_z() const { return surface == FrictionSurface::hinge || pushes(); }
   bool pushes() const { return surface == FrictionSurface::slide || surface == FrictionSurface::sleeve; }
+  bool turns() const { return surface != FrictionSurface::slide; }
+  // Whether what the joint bears presses its surfaces together (friction_load.h).
+  bool bears_load() const {
+    return of_force || (of_bending && surface != FrictionSurface::ball) ||
+           (of_torsion && surface == FrictionSurface::slide);
+  }
 };
 
 }  // namespace dynalin
