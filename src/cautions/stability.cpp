@@ -213,9 +213,9 @@ bool is_free_here_alone(const System& system, const OperatingPoint& at_rest, con
 }  // namespace
 
 Stability stability_of(const System& system, const OperatingPoint& at_rest) {
-  constexpr std::size_t affordable = 300;
+  constexpr std::size_t affordable = 600;  // states at most
   Stability s;
-  if (system.coordinates() > affordable) {
+  if (2 * system.coordinates() + system.layout().states.size() > affordable) {
     s.reason = "the model is too large to look at it in passing, LINEAR/EIGENSOL tells";
     return s;
   }

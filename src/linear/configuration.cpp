@@ -65,6 +65,7 @@ double relative_size(const System& system, const OperatingPoint& op, const Linea
 }
 
 LeastKnownRate least_known_rate(const System& system, const OperatingPoint& op, const LinearSystem& linear) {
+  if (linear.A.size() == 0) return {};
   const Eigen::VectorXd unit = units_of_states(system, op, linear);
   const Eigen::MatrixXd unknown = linear.rounding + linear.uncertainty;
   LeastKnownRate found;

@@ -18,7 +18,7 @@ namespace dynalin {
 double relative_size(const System&, const OperatingPoint&, const LinearSystem&, const Eigen::MatrixXd& of_matrix);
 
 // The state whose rate is known least: what roundings may leave in an entry of its row of the state matrix, against the
-// largest entry of the row, in the same units. Rows without entries are known.
+// largest entry of the row, in the same units. Rows without entries are known, and so is a model without state matrix.
 struct LeastKnownRate {
   double part = 0;
   std::size_t state = 0;

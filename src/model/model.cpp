@@ -52,11 +52,12 @@ double radius_of_most(const std::vector<Vector>& points) {
 }
 
 // The size of one body in the middle of all, from its mass centre to its markers or by its inertia; 0 without any.
-double size_of_bodies(const Model& model) {
+double size_of_bodies(const Model& model, std::span<const MarkerId> markers) {
   std::vector<double> size;
   for (const Body& b : model.bodies)
     size.push_back(b.mass > 0 ? std::sqrt(std::max(0.0, trace(b.J_BC)) / b.mass) : 0.0);
-  for (const Marker& m : model.markers) {
+  for (const MarkerId id : markers) {
+    const Marker& m = model.marker(id);
     const auto b = static_cast<std::size_t>(m.place.body.index);
     if (!m.floating) size[b] = std::max(size[b], norm(m.place.p_BM - model.bodies[b].p_BC));
   }
@@ -68,14 +69,23 @@ double size_of_bodies(const Model& model) {
 }  // namespace
 
 double Model::characteristic_length() const {
+  std::vector<MarkerId> all;
+  for (std::size_t k = 1; k < markers.size(); ++k) all.push_back(MarkerId{static_cast<std::int32_t>(k)});
+  return characteristic_length(all);
+}
+
+double Model::characteristic_length(std::span<const MarkerId> of) const {
   // The exact diameter of n points costs n²; two sweeps from the farthest point are within a factor of √3 and
   // the result is only a scale. Starting at the centroid makes it independent of numbering and placement.
   std::vector<Vector> points;
-  points.reserve(markers.size());
-  for (std::size_t k = 1; k < markers.size(); ++k) {
-    const Body& b = body(markers[k].place.body);
-    if (!markers[k].floating) points.push_back(b.pose.r + b.pose.R * markers[k].place.p_BM);
+  points.reserve(of.size() + bodies.size());
+  for (const MarkerId id : of) {
+    const Marker& m = marker(id);
+    const Body& b = body(m.place.body);
+    if (!m.floating) points.push_back(b.pose.r + b.pose.R * m.place.p_BM);
   }
+  for (const Body& b : bodies)
+    if (b.mass > 0) points.push_back(b.pose.r + b.pose.R * b.p_BC);
   if (points.size() < 2) return 1.0;
   const auto farthest = [&](const Vector& from) {
     return *std::max_element(points.begin(), points.end(), [&](const Vector& a, const Vector& b) {
@@ -91,7 +101,7 @@ double Model::characteristic_length() const {
   // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Markers
   // that stand at one place but for rounding are none either, but bodies are not so small.
   constexpr double farther = 1e4, coincide = 1e-12;
-  if (const double size = size_of_bodies(*this); size > 0) {
+  if (const double size = size_of_bodies(*this, of); size > 0) {
     length = std::min(length, farther * std::max(radius_of_most(points), size));
     if (length <= coincide * size) length = size;
   }

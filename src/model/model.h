@@ -92,10 +92,11 @@ struct Model {
   const Marker& marker(MarkerId m) const { return markers[static_cast<std::size_t>(m.index)]; }
   const Body& body(BodyId b) const { return bodies[static_cast<std::size_t>(b.index)]; }
 
-  // The largest distance between the origins of two markers as drawn, 1 if there is none: the length by
-  // which displacements and rotations are compared. At most 10 000 times the radius that holds three quarters of them
-  // or, if that is more, the size of a body; that size where all markers are at one place. [length]
-  double characteristic_length() const;
+  // The largest distance between two of the given markers and the mass centres as drawn: the length by which
+  // displacements and rotations are compared. At most 10 000 times the radius that holds three quarters of them
+  // or, if that is more, the size of a body; that size where all are at one place, 1 where there is nothing. [length]
+  double characteristic_length(std::span<const MarkerId> markers) const;
+  double characteristic_length() const;  // of all markers
 
   // VARIABLEs whose course in time a MOTION follows: they cannot be inputs of a linear model.
   struct FollowedVariable {

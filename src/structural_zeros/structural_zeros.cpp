@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/dense_solvers.h"
 #include "perturbation/perturbed_point.h"
@@ -62,20 +63,28 @@ class StructuralZeros::Contributions {
 
   // Which states act on bodies, and which algebraic unknowns bodies or such states read directly.
   void find_driven(const Equations& eq) {
-    std::vector<bool> acts(static_cast<std::size_t>(eq.size()), false);  // equations that bodies depend on
-    for (std::int32_t r = 0; r < n_; ++r) acts[static_cast<std::size_t>(r)] = true;
-    const auto owner_of = [&](PartialBy family, std::int32_t c) -> std::int32_t {
-      if (family == PartialBy::algebraic) return n_ + c;
-      return family == PartialBy::state || family == PartialBy::state_rate ? n_ + w_ + c : -1;
-    };
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const PartialBy family : {PartialBy::algebraic, PartialBy::state, PartialBy::state_rate}) {
-        for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
-          const auto owner = static_cast<std::size_t>(owner_of(family, c));
-          if (v == 0.0 || !acts[static_cast<std::size_t>(r)] || acts[owner]) return;
-          acts[owner] = changed = true;
-        });
+    const auto size = static_cast<std::size_t>(eq.size());
+    // What each equation reads: the equations of unknowns and states.
+    std::vector<std::vector<std::int32_t>> reads(size);
+    for (const auto& [family, first] : {std::pair{PartialBy::algebraic, n_}, std::pair{PartialBy::state, n_ + w_},
+                                        std::pair{PartialBy::state_rate, n_ + w_}}) {
+      for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
+        if (v != 0.0) reads[static_cast<std::size_t>(r)].push_back(first + c);
+      });
+    }
+    std::vector<bool> acts(size, false);  // equations that bodies depend on
+    std::vector<std::int32_t> open;
+    for (std::int32_t r = 0; r < n_; ++r) {
+      acts[static_cast<std::size_t>(r)] = true;
+      open.push_back(r);
+    }
+    while (!open.empty()) {
+      const auto& next = reads[static_cast<std::size_t>(open.back())];
+      open.pop_back();
+      for (const std::int32_t r : next) {
+        if (acts[static_cast<std::size_t>(r)]) continue;
+        acts[static_cast<std::size_t>(r)] = true;
+        open.push_back(r);
       }
     }
     for (std::size_t k = 0; k < state_count_; ++k) driven_.push_back(!acts[static_cast<std::size_t>(n_ + w_) + k]);

@@ -85,7 +85,13 @@ void System::find_angles(const std::vector<AngleName>& counted_before) {
 }
 
 void System::scale_coordinates() {
-  length_ = model_->characteristic_length();
+  // Markers at which nothing acts are no measure of the mechanism: axes of ground, what requests and graphics show.
+  std::vector<MarkerId> acted_on;
+  for (std::size_t k = 1; k < model_->markers.size(); ++k) {
+    const MarkerId m{static_cast<std::int32_t>(k)};
+    if (!signals_->wrenches_at(m).empty()) acted_on.push_back(m);
+  }
+  length_ = acted_on.empty() ? model_->characteristic_length() : model_->characteristic_length(acted_on);
   // Markers that stand at one place of a curve but for rounding are no scale of what moves along it.
   constexpr double coincide = 1e-9;
   for (const CurvePoint& p : layout_.curve_points) {

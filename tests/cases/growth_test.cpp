@@ -88,6 +88,31 @@ TEST_F(Growth, statics_of_a_force_that_sums_very_many_values_are_quick) {
   EXPECT_LT(seconds(), most_seconds);
 }
 
+// Each reads the one before, and the force the last.
+TEST_F(Growth, a_long_chain_of_values_is_followed_quickly) {
+  constexpr int count = 50'000;
+  std::string values = "VARIABLE/1, FUNCTION=DZ(3,1)-1\n";
+  for (int k = 2; k <= count; ++k)
+    values += "VARIABLE/" + std::to_string(k) + ", FUNCTION=VARVAL(" + std::to_string(k - 1) + ")\n";
+  const RunResult r = run(slider(0, "-8*VARVAL(" + std::to_string(count) + ")", values), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}}, 1e-10);
+  EXPECT_LT(seconds(), most_seconds);
+}
+
+// The stability that statics judge in passing has states of controllers as well.
+TEST_F(Growth, statics_beside_very_many_differential_states_are_quick) {
+  constexpr int count = 4000;
+  std::string states;
+  for (int k = 1; k <= count; ++k) {
+    const std::string id = std::to_string(k);
+    states += "DIFF/" + id + ", IC=1, FUNCTION=-DIF(" + id + ")\n";
+  }
+  const RunResult r = run(slider(0, "8*(1-DZ(3,1))", states), "SIMULATE/STATICS\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  EXPECT_LT(seconds(), most_seconds);
+}
+
 TEST_F(Growth, near_ids_are_named_as_ever) {
   const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
   const RunResult r =
