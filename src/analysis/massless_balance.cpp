@@ -22,7 +22,7 @@ bool states_velocity(const Body& body) {
   const auto stated = [](const auto& values) {
     return std::any_of(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
   };
-  return stated(body.velocity.of_cm) || stated(body.velocity.angular);
+  return stated(body.velocity->of_cm) || stated(body.velocity->angular);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ std::vector<bool> exact_where_bodies_deform(const System& system) {
   std::vector<bool> held;
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const Body& body = system.model().bodies[b];
-    if (body.modal.empty()) continue;
+    if (body.nature->modal.empty()) continue;
     const std::array<bool, 6>& exact = body.exact;
     const bool all_angles = exact[3] && exact[4] && exact[5];
     for (std::int32_t k = 0; k < layout.bodies[b].count; ++k) {

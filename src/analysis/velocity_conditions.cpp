@@ -41,12 +41,12 @@ std::vector<VelocityCondition> stated_velocities(const System& system, const Mot
     const BodyBlock& block = system.layout().bodies[b];
     const Vector c = motion.bodies[b].R * body.p_BC;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (body.velocity.of_cm[k] && restated.holds(body.label, cm_names[k])) {
-        const Vector a = motion.axes(system.layout().marker(body.velocity.cm_axes))[k];
+      if (body.velocity->of_cm[k] && restated.holds(body.label, cm_names[k])) {
+        const Vector a = motion.axes(system.layout().marker(body.velocity->cm_axes))[k];
         const Vector turn = cross(c, a);
         VelocityCondition s{{},
                             {},
-                            *body.velocity.of_cm[k],
+                            *body.velocity->of_cm[k],
                             fmt::format("{} of {}", cm_names[k], body.label.full_text()),
                             body.label.at};
         for (std::int32_t i = 0; i < block.count; ++i) {
@@ -56,12 +56,12 @@ std::vector<VelocityCondition> stated_velocities(const System& system, const Mot
         }
         conditions.push_back(std::move(s));
       }
-      if (body.velocity.angular[k] && block.turns() && restated.holds(body.label, angular_names[k])) {
-        const MarkerId axes = body.velocity.angular_axes;  // those of the BCS, where no marker has them
+      if (body.velocity->angular[k] && block.turns() && restated.holds(body.label, angular_names[k])) {
+        const MarkerId axes = body.velocity->angular_axes;  // those of the BCS, where no marker has them
         const Vector a = (axes.valid() ? motion.axes(system.layout().marker(axes)) : motion.bodies[b].R)[k];
         VelocityCondition s{{},
                             {},
-                            *body.velocity.angular[k],
+                            *body.velocity->angular[k],
                             fmt::format("{} of {}", angular_names[k], body.label.full_text()),
                             body.label.at};
         for (std::int32_t i = 0; i < 3; ++i) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "expression/expression.h"
+#include "expression/name_index.h"
 
 namespace dynalin {
 
@@ -296,10 +297,8 @@ constexpr std::array atom_table = {
 std::span<const AtomFunction> atom_functions() { return atom_table; }
 
 const AtomFunction* find_atom_function(std::string_view name) {
-  for (const AtomFunction& f : atom_table) {
-    if (f.name == name) return &f;
-  }
-  return nullptr;
+  static const NameIndex<AtomFunction> names = {atom_table};
+  return names.find(name);
 }
 
 const AtomFunction& atom_function(Measure measure) {

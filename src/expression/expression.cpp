@@ -11,13 +11,16 @@ namespace dynalin {
 
 namespace {
 
+// Of an expression that is made and not read.
+std::shared_ptr<const ExpressionProgram> program_of(const ProgramDraft& draft) {
+  ProgramShapes alone;
+  return std::make_shared<const ExpressionProgram>(draft, alone);
+}
+
 std::shared_ptr<const ExpressionProgram> constant_program(double value) {
-  auto program = std::make_shared<ExpressionProgram>();
-  ExpressionNode node;
-  node.constant = value;
-  program->nodes.push_back(node);
-  program->places.emplace_back();
-  return program;
+  ProgramDraft draft;
+  draft.add({.constant = value}, {});
+  return program_of(draft);
 }
 
 }  // namespace
@@ -32,28 +35,26 @@ Expression::Expression(std::shared_ptr<const ExpressionProgram> program) : progr
 Expression Expression::constant(double value) { return Expression(constant_program(value)); }
 
 Expression Expression::of_atom(const Atom& atom) {
-  auto program = std::make_shared<ExpressionProgram>();
-  program->at = atom.at;
-  program->atoms.push_back(atom);
-  program->nodes.push_back({.kind = ExpressionNode::Kind::atom, .a = 0});
-  program->places.push_back(atom.at);
-  return Expression(std::move(program));
+  ProgramDraft draft;
+  draft.at = atom.at;
+  draft.atoms.push_back(atom);
+  draft.add({.kind = ExpressionNode::Kind::atom}, atom.at);
+  return Expression(program_of(draft));
 }
 
 Expression ExpressionParser::of_routine(std::vector<Atom> inputs, std::shared_ptr<const Routine> routine,
                                         std::size_t which, const Span& at) {
-  auto program = std::make_shared<ExpressionProgram>();
-  program->at = at;
+  ProgramDraft draft;
+  draft.at = at;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     const auto number = static_cast<std::int32_t>(k);
-    program->nodes.push_back({.kind = ExpressionNode::Kind::atom, .a = number});
-    program->operands.push_back(number);
+    draft.add({.kind = ExpressionNode::Kind::atom, .a = number}, at);
+    draft.operands.push_back(number);
   }
-  program->routines.push_back({std::move(routine), which, inputs.size(), at});
-  program->nodes.push_back({.kind = ExpressionNode::Kind::routine});
-  program->places.assign(program->nodes.size(), at);
-  program->atoms = std::move(inputs);
-  return Expression(std::move(program));
+  draft.routines.push_back({std::move(routine), which, inputs.size(), at});
+  draft.add({.kind = ExpressionNode::Kind::routine}, at);
+  draft.atoms = std::move(inputs);
+  return Expression(program_of(draft));
 }
 
 Expression routine_expression(std::vector<Atom> inputs, std::shared_ptr<const Routine> routine, std::size_t which,
@@ -61,19 +62,23 @@ Expression routine_expression(std::vector<Atom> inputs, std::shared_ptr<const Ro
   return ExpressionParser::of_routine(std::move(inputs), std::move(routine), which, at);
 }
 
-std::span<const Atom> Expression::atoms() const { return program_->atoms; }
-const Span& Expression::at() const { return program_->at; }
+Atom AtomOfProgram::operator()(std::uint32_t number) const { return program->atom(number); }
 
-std::span<const SplineUse> Expression::splines() const { return program_->splines; }
+AtomList Expression::atoms() const {
+  return {{std::uint32_t{0}, static_cast<std::uint32_t>(program_->atom_count())}, AtomOfProgram{program_.get()}};
+}
+Span Expression::at() const { return program_->at(); }
+
+std::span<const SplineUse> Expression::splines() const { return program_->splines(); }
 
 Expression Expression::with_curves(const std::function<void(SplineUse&)>& attach) const {
-  if (program_->splines.empty()) return *this;
-  auto program = std::make_shared<ExpressionProgram>(*program_);
-  for (SplineUse& use : program->splines) attach(use);
-  return Expression(std::move(program));
+  if (splines().empty()) return *this;
+  std::vector<SplineUse> attached(splines().begin(), splines().end());
+  for (SplineUse& use : attached) attach(use);
+  return Expression(std::make_shared<const ExpressionProgram>(*program_, std::move(attached)));
 }
 
-bool Expression::has_switches() const { return !program_->switching.empty(); }
+bool Expression::has_switches() const { return !program_->switching().empty(); }
 
 void Expression::switches(std::span<const double> atom_values, ExpressionWorkspace<double>& workspace,
                           SwitchList& out) const {
@@ -87,11 +92,12 @@ void Expression::look_ahead(std::span<const double> from, std::span<const double
 
 std::vector<Expression::Call> Expression::calls() const {
   std::vector<Call> calls;
-  for (std::size_t k = 0; k < program_->nodes.size(); ++k) {
-    const ExpressionNode& node = program_->nodes[k];
+  for (std::size_t k = 0; k < program_->nodes().size(); ++k) {
+    const ExpressionNode& node = program_->nodes()[k];
     // The merge has the place of the whole, the branch that of its condition.
-    if (node.kind == ExpressionNode::Kind::merge) calls.push_back({"IF", program_->places[k]});
-    if (node.kind == ExpressionNode::Kind::call) calls.push_back({node.function->name, program_->places[k]});
+    if (node.kind == ExpressionNode::Kind::merge) calls.push_back({"IF", program_->place(k)});
+    if (node.kind == ExpressionNode::Kind::call)
+      calls.push_back({program_->function_of(node).name, program_->place(k)});
   }
   return calls;
 }
@@ -110,7 +116,7 @@ T Expression::evaluate(std::span<const T> atom_values, std::span<T> partials, Ex
 
 template <class T>
 bool Expression::reaches(std::size_t atom, const ExpressionWorkspace<T>& workspace) const {
-  const auto& nodes = program_->nodes;
+  const auto nodes = program_->nodes();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].kind != ExpressionNode::Kind::atom || static_cast<std::size_t>(nodes[i].a) != atom) continue;
     if (workspace.reached[i]) return true;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -109,8 +110,16 @@ struct Atom {
   }
 };
 
-struct ExpressionNode;  // one instruction of the flat program
 class ExpressionProgram;
+class ProgramShapes;
+struct ProgramDraft;
+
+// The atoms of an expression: programs keep them in less memory, so that each is made when it is asked for.
+struct AtomOfProgram {
+  const ExpressionProgram* program;
+  Atom operator()(std::uint32_t number) const;
+};
+using AtomList = std::ranges::transform_view<std::ranges::iota_view<std::uint32_t, std::uint32_t>, AtomOfProgram>;
 
 // Scratch memory of one evaluation; kept by the caller so that evaluation allocates nothing.
 template <class T>
@@ -135,9 +144,9 @@ class Expression {
   static Expression constant(double);
   static Expression of_atom(const Atom&);
 
-  std::span<const Atom> atoms() const;                  // each distinct atom once
+  AtomList atoms() const;                               // each distinct atom once
   bool is_constant() const { return atoms().empty(); }  // a spline at constant arguments is
-  const Span& at() const;
+  Span at() const;
   // For what looks at how it is made, instead of evaluating it.
   const ExpressionProgram& program() const { return *program_; }
 
@@ -191,8 +200,9 @@ class Expression {
  private:
   explicit Expression(std::shared_ptr<const ExpressionProgram>);
   friend class ExpressionParser;
-  friend Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
-  friend struct VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+  friend Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&, ProgramShapes&);
+  friend struct VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&,
+                                                         ProgramShapes&);
   std::shared_ptr<const ExpressionProgram> program_;
 };
 
@@ -206,13 +216,14 @@ struct DelayedCall {
 
 // Parses the tokens of a value. Continuation commas are white space here. Reports all it can find;
 // the result after an error is the constant 0. The spans of the result point into the source text,
-// which must outlive it.
+// which must outlive it. Expressions that are read with the same shapes share what they have in common.
+Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&, ProgramShapes&);
 Expression parse_expression(std::span<const Token>, const SourceText&, Diagnostics&);
 
 // The three components of an expression whose value is a vector.
 struct VectorExpression {
   std::array<Expression, 3> component;
 };
-VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&);
+VectorExpression parse_vector_expression(std::span<const Token>, const SourceText&, Diagnostics&, ProgramShapes&);
 
 }  // namespace dynalin

@@ -64,20 +64,20 @@ FormalPartials::Growing FormalPartials::times(const Growing& sum, Value factor) 
 
 FormalPartials::Value FormalPartials::node_value(const ExpressionProgram& program, std::size_t k,
                                                  const std::vector<Value>& before) {
-  const ExpressionNode& node = program.nodes[k];
+  const ExpressionNode& node = program.nodes()[k];
   const auto of = [&](std::int32_t n) { return before[at(n)]; };
   Key all = key(node.kind);
   const auto add_operands = [&](std::int32_t count) {
-    for (std::int32_t i = 0; i < count; ++i) all.push_back(word(of(program.operands[at(node.b + i)])));
+    for (std::int32_t i = 0; i < count; ++i) all.push_back(word(of(program.operands()[at(node.b + i)])));
   };
   switch (node.kind) {
     case Kind::constant: {
-      const Value v = value(key(node.kind, node.constant));
-      constants_[v] = node.constant;
+      const Value v = value(key(node.kind, program.constant_of(node)));
+      constants_[v] = program.constant_of(node);
       return v;
     }
     case Kind::atom: {
-      const Atom& a = program.atoms[at(node.a)];
+      const Atom a = program.atom(at(node.a));
       all.push_back(word(a.function)), all.push_back(word(a.delayed.get()));
       for (const std::int32_t i : a.argument) all.push_back(word(i));
       break;
@@ -94,21 +94,21 @@ FormalPartials::Value FormalPartials::node_value(const ExpressionProgram& progra
       all.push_back(word(of(node.a))), all.push_back(word(of(node.b)));
       break;
     case Kind::power:
-      all.push_back(word(of(node.a))), all.push_back(word(node.constant));
+      all.push_back(word(of(node.a))), all.push_back(word(program.constant_of(node)));
       break;
     case Kind::call:
-      all.push_back(word(node.function));
+      all.push_back(word(&program.function_of(node)));
       add_operands(node.a);
       break;
     case Kind::spline: {
-      const SplineUse& use = program.splines[at(node.a)];
+      const SplineUse& use = program.splines()[at(node.a)];
       all.insert(all.end(), {word(use.id), word(use.method), word(use.derivative), word(use.component.value_or(9))});
       if (use.spectrum) all.push_back(word(values_.size()));  // one that is like no other
       add_operands(2);
       break;
     }
     case Kind::routine: {
-      const RoutineUse& use = program.routines[at(node.a)];
+      const RoutineUse& use = program.routines()[at(node.a)];
       all.insert(all.end(), {word(use.routine.get()), word(use.which)});
       add_operands(static_cast<std::int32_t>(use.inputs));
       break;
@@ -128,7 +128,7 @@ FormalPartials::Value FormalPartials::node_value(const ExpressionProgram& progra
 // The chain rule at one node: its adjoint times each slope to what it is made of.
 void FormalPartials::spread(const ExpressionProgram& program, std::size_t k, const std::vector<Value>& values,
                             std::vector<Growing>& adjoint) {
-  const ExpressionNode& node = program.nodes[k];
+  const ExpressionNode& node = program.nodes()[k];
   const auto of = [&](std::int32_t n) { return values[at(n)]; };
   const Growing& whole = adjoint[k];
   const auto pass = [&](std::int32_t to, const Growing& sum, double number = 1) {
@@ -138,9 +138,9 @@ void FormalPartials::spread(const ExpressionProgram& program, std::size_t k, con
     }
   };
   const auto pass_slopes = [&](Key base, std::int32_t count) {
-    for (std::int32_t i = 0; i < count; ++i) base.push_back(word(of(program.operands[at(node.b + i)])));
+    for (std::int32_t i = 0; i < count; ++i) base.push_back(word(of(program.operands()[at(node.b + i)])));
     for (std::int32_t i = 0; i < count; ++i) {
-      const std::int32_t to = program.operands[at(node.b + i)];
+      const std::int32_t to = program.operands()[at(node.b + i)];
       if (constants_.contains(of(to))) continue;
       Key by = base;
       by.push_back(word(i));
@@ -172,20 +172,21 @@ void FormalPartials::spread(const ExpressionProgram& program, std::size_t k, con
       return pass(node.b, times(divided, values[k]), -1);
     }
     case Kind::power: {
-      if (node.constant == 0) return;
-      if (node.constant == 1) return pass(node.a, whole);
-      const Value less = node.constant == 2 ? of(node.a) : value(key(Kind::power, of(node.a), node.constant - 1));
-      return pass(node.a, times(whole, less), node.constant);
+      const double exponent = program.constant_of(node);
+      if (exponent == 0) return;
+      if (exponent == 1) return pass(node.a, whole);
+      const Value less = exponent == 2 ? of(node.a) : value(key(Kind::power, of(node.a), exponent - 1));
+      return pass(node.a, times(whole, less), exponent);
     }
     case Kind::call:
-      return pass_slopes(key(slope, node.function), node.a);
+      return pass_slopes(key(slope, &program.function_of(node)), node.a);
     case Kind::spline:
       return pass_slopes(key(slope, values[k]), 2);
     case Kind::routine:
-      return pass_slopes(key(slope, values[k]), static_cast<std::int32_t>(program.routines[at(node.a)].inputs));
+      return pass_slopes(key(slope, values[k]), static_cast<std::int32_t>(program.routines()[at(node.a)].inputs));
     case Kind::merge:
       for (std::int32_t i = 0; i < 3; ++i)
-        pass(program.operands[at(node.b + i)], times(whole, value(key(selected, of(node.a), i))));
+        pass(program.operands()[at(node.b + i)], times(whole, value(key(selected, of(node.a), i))));
       return;
   }
 }
@@ -193,18 +194,18 @@ void FormalPartials::spread(const ExpressionProgram& program, std::size_t k, con
 std::vector<FormalPartials::Sum> FormalPartials::of(const Expression& e) {
   const ExpressionProgram& program = e.program();
   std::vector<Value> values;
-  for (std::size_t k = 0; k < program.nodes.size(); ++k) values.push_back(node_value(program, k, values));
-  std::vector<Growing> adjoint(program.nodes.size());
+  for (std::size_t k = 0; k < program.nodes().size(); ++k) values.push_back(node_value(program, k, values));
+  std::vector<Growing> adjoint(program.nodes().size());
   adjoint.back()[one] = {1, 1};
-  std::vector<Growing> whole(program.atoms.size());
-  for (std::size_t k = program.nodes.size(); k-- > 0;) {
+  std::vector<Growing> whole(program.atom_count());
+  for (std::size_t k = program.nodes().size(); k-- > 0;) {
     if (adjoint[k].empty()) continue;
-    if (program.nodes[k].kind != Kind::atom) {
+    if (program.nodes()[k].kind != Kind::atom) {
       spread(program, k, values, adjoint);
       continue;
     }
     for (const auto& [term, c] : adjoint[k]) {
-      Coefficient& into = whole[at(program.nodes[k].a)][term];
+      Coefficient& into = whole[at(program.nodes()[k].a)][term];
       into.number += c.number, into.size += c.size;
     }
   }

@@ -4,6 +4,8 @@
 #include <array>
 #include <numbers>
 
+#include "expression/name_index.h"
+
 namespace dynalin {
 
 namespace {
@@ -22,12 +24,8 @@ constexpr std::array<std::string_view, 1> names_alone_not_built = {"FXFREQ"};
 }  // namespace
 
 const Function* find_function(std::string_view name) {
-  for (const auto& family : {elementary_functions(), contact_functions(), series_functions()}) {
-    for (const Function& f : family) {
-      if (f.name == name) return &f;
-    }
-  }
-  return nullptr;
+  static const NameIndex<Function> names = {elementary_functions(), contact_functions(), series_functions()};
+  return names.find(name);
 }
 
 bool has_kinks(std::string_view name) {

@@ -36,13 +36,17 @@ bool is_operator(std::string_view symbol) {
 
 }  // namespace
 
-ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics)
+ExpressionParser::ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics,
+                                   ProgramShapes& shapes)
     : tokens_(tokens.begin(), std::ranges::find_if(tokens, [](const Token& t) { return t.kind == TokenKind::end; })),
       source_(source),
       diagnostics_(diagnostics),
+      shapes_(shapes),
       errors_before_(diagnostics.error_count()),
-      builder_(diagnostics, tokens.size()),
+      builder_(diagnostics, shapes, tokens.size()),
       nowhere_{&source, tokens.empty() ? 0 : tokens.front().offset, 0} {
+  constexpr std::size_t some = 16;  // wait at the same time
+  pending_.reserve(some), operands_.reserve(some);
   const auto is_mark = [](const Token& token) { return token.continuation; };
   if (std::ranges::none_of(tokens_, is_mark)) return;
   std::ranges::remove_copy_if(tokens_, std::back_inserter(unmarked_), is_mark);
@@ -331,16 +335,22 @@ void ExpressionParser::syntax_error(std::string_view code, const Span& at, std::
   stopped_ = true;
 }
 
-Expression parse_expression(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics) {
-  auto program = ExpressionParser(tokens, source, diagnostics).parse();
+Expression parse_expression(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics,
+                            ProgramShapes& shapes) {
+  auto program = ExpressionParser(tokens, source, diagnostics, shapes).parse();
   return program ? Expression(std::move(program)) : Expression();
 }
 
+Expression parse_expression(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics) {
+  ProgramShapes alone;
+  return parse_expression(tokens, source, diagnostics, alone);
+}
+
 VectorExpression parse_vector_expression(std::span<const Token> tokens, const SourceText& source,
-                                         Diagnostics& diagnostics) {
+                                         Diagnostics& diagnostics, ProgramShapes& shapes) {
   VectorExpression v;
   for (std::size_t k = 0; k < 3; ++k) {
-    auto program = ExpressionParser(tokens, source, diagnostics).parse_component(k);
+    auto program = ExpressionParser(tokens, source, diagnostics, shapes).parse_component(k);
     if (!program) break;  // reported once
     v.component[k] = Expression(std::move(program));
   }

@@ -22,7 +22,8 @@ namespace dynalin {
 
 class ExpressionParser {
  public:
-  ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics);
+  ExpressionParser(std::span<const Token> tokens, const SourceText& source, Diagnostics& diagnostics,
+                   ProgramShapes& shapes);
   // Nothing after an error.
   std::shared_ptr<const ExpressionProgram> parse();
   // Parses a part of a DELAY, in which no other one may stand.
@@ -115,6 +116,7 @@ class ExpressionParser {
   std::span<const Token> tokens_;  // without continuation marks
   const SourceText& source_;
   Diagnostics& diagnostics_;
+  ProgramShapes& shapes_;
   std::size_t errors_before_;
   ProgramBuilder builder_;
   std::size_t at_ = 0;

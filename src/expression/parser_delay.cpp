@@ -34,7 +34,7 @@ void ExpressionParser::read_delay(const AtomFunction& function, const Span& name
     if (argument.empty()) {
       diagnostics_.error("missing-operand", at, fmt::format("argument {} of DELAY is missing", count + 1));
     } else if (count < parts.size() && !within_delay_) {
-      if (auto program = ExpressionParser(argument, source_, diagnostics_).parse_within_delay())
+      if (auto program = ExpressionParser(argument, source_, diagnostics_, shapes_).parse_within_delay())
         *parts[count] = Expression(std::move(program));
       if (count == 0)
         for (const Token& t : argument) call.delayed += upper_case(token_text(t, source_));

@@ -36,14 +36,14 @@ double selected_branch(double condition) {
 
 template <class T>
 T ExpressionProgram::value_of_call(const ExpressionNode& node, const std::vector<T>& value) const {
-  const std::span list(operands.data() + node.b, static_cast<std::size_t>(node.a));
+  const std::span list(operands().subspan(static_cast<std::size_t>(node.b), static_cast<std::size_t>(node.a)));
   bool at_rest = true;
   for (const std::int32_t k : list) {
     at_rest = at_rest && is_at_rest(value[static_cast<std::size_t>(k)]);
   }
-  if (at_rest) return T(call<double, most_arguments>(*node.function, list, value));
-  if (list.size() <= 8) return call<T, 8>(*node.function, list, value);
-  return call<T, most_arguments>(*node.function, list, value);
+  if (at_rest) return T(call<double, most_arguments>(function_of(node), list, value));
+  if (list.size() <= 8) return call<T, 8>(function_of(node), list, value);
+  return call<T, most_arguments>(function_of(node), list, value);
 }
 
 template <class T>
@@ -52,7 +52,7 @@ T ExpressionProgram::value_of_node(const ExpressionNode& node, std::span<const T
   const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
   switch (node.kind) {
     case Kind::constant:
-      return T(node.constant);
+      return T(constant_of(node));
     case Kind::atom:
       return atom_values[a];
     case Kind::negate:
@@ -66,18 +66,18 @@ T ExpressionProgram::value_of_node(const ExpressionNode& node, std::span<const T
     case Kind::divide:
       return quotient(value[a], value[b]);
     case Kind::power:
-      return power_at(value[a], node.constant);
+      return power_at(value[a], constant_of(node));
     case Kind::call:
       return value_of_call(node, value);
     case Kind::spline:
-      return splines[a].evaluate(value[static_cast<std::size_t>(operands[b])],
-                                 value[static_cast<std::size_t>(operands[b + 1])]);
+      return splines()[a].evaluate(value[static_cast<std::size_t>(operands()[b])],
+                                   value[static_cast<std::size_t>(operands()[b + 1])]);
     case Kind::routine:
-      return routines[a].routine->value(inputs_of(node, value), routines[a].which);
+      return routines()[a].routine->value(inputs_of(node, value), routines()[a].which);
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return T(selection);
-      return value[static_cast<std::size_t>(operands[b + static_cast<std::size_t>(selection)])];
+      return value[static_cast<std::size_t>(operands()[b + static_cast<std::size_t>(selection)])];
     }
     case Kind::branch:
     case Kind::jump:
@@ -88,11 +88,12 @@ T ExpressionProgram::value_of_node(const ExpressionNode& node, std::span<const T
 
 template <class T>
 T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspace<T>& workspace) const {
-  assert(atom_values.size() == atoms.size());
+  assert(atom_values.size() == atom_count());
+  const std::span<const ExpressionNode> all = nodes();
   std::vector<T>& value = workspace.value;
-  if (value.size() < nodes.size()) value.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const ExpressionNode& node = nodes[i];
+  if (value.size() < all.size()) value.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ExpressionNode& node = all[i];
     // The loop's increment then leads to the first node of a branch, or to the merge.
     if (node.kind == Kind::branch) {
       const double selection = selected_branch(value_of(value[static_cast<std::size_t>(node.a)]));
@@ -104,7 +105,7 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspac
       value[i] = value_of_node(node, atom_values, value);
     }
   }
-  return value[nodes.size() - 1];
+  return value[all.size() - 1];
 }
 
 // Nodes of branches not taken hold old values and are never reached; nor is what stands behind a constant zero or the
@@ -112,7 +113,8 @@ T ExpressionProgram::evaluate(std::span<const T> atom_values, ExpressionWorkspac
 // merely is zero here matters unless what vanishes there vanishes fast enough.
 template <class T>
 void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
-  const std::size_t count = nodes.size();
+  const std::span<const ExpressionNode> all = nodes();
+  const std::size_t count = all.size();
   std::vector<T>& adjoint = workspace.adjoint;
   std::vector<char>& reached = workspace.reached;
   if (adjoint.size() < count) adjoint.resize(count), reached.resize(count);
@@ -122,7 +124,7 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
     if (!reached[i]) continue;
     const bool counts = !is_zero(adjoint[i]);
     bool infinite = false;
-    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
+    visit_partials(*this, all[i], workspace.value, [&](std::size_t operand, const auto& partial) {
       reached[operand] = true;
       if (counts) {
         adjoint[operand] += adjoint[i] * partial;
@@ -131,7 +133,7 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
       }
     });
     if (!infinite || is_differentiable(workspace)) continue;
-    visit_partials(*this, nodes[i], workspace.value, [&](std::size_t operand, const auto& partial) {
+    visit_partials(*this, all[i], workspace.value, [&](std::size_t operand, const auto& partial) {
       if (!std::isfinite(value_of(partial))) adjoint[operand] += no_number;
     });
   }
@@ -139,12 +141,13 @@ void ExpressionProgram::sweep_back(ExpressionWorkspace<T>& workspace) const {
 
 template <class T>
 void ExpressionProgram::differentiate(std::span<T> partials, ExpressionWorkspace<T>& workspace) const {
-  assert(partials.size() == atoms.size());
+  assert(partials.size() == atom_count());
   sweep_back(workspace);
   for (T& partial : partials) partial = T(0.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].kind != Kind::atom) continue;
-    partials[static_cast<std::size_t>(nodes[i].a)] += workspace.adjoint[i];
+  const std::span<const ExpressionNode> all = nodes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].kind != Kind::atom) continue;
+    partials[static_cast<std::size_t>(all[i].a)] += workspace.adjoint[i];
   }
 }
 

@@ -10,56 +10,46 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "expression/expression.h"
 #include "expression/functions.h"
+#include "expression/program_draft.h"
+#include "expression/program_shape.h"
 #include "expression/routine.h"
 #include "expression/spline.h"
 
 namespace dynalin {
-
-struct ExpressionNode {
-  enum class Kind : std::uint8_t {
-    constant,  // constant
-    atom,      // atom number a
-    negate,    // −a
-    add,       // a + b
-    subtract,  // a − b
-    multiply,  // a b
-    divide,    // a / b
-    power,     // a ** constant
-    call,      // function of operands[b] … operands[b + a − 1]
-    spline,    // spline number a at x = operands[b], z = operands[b + 1]
-    routine,   // routine number a, reads routines[a].inputs nodes from operands[b] on
-    branch,    // looks at node a; operands[b …]: first node of each of three branches, then the merge
-    jump,      // to node a
-    merge,     // of branch a; operands[b …]: result node of each of three branches
-  };
-  Kind kind = Kind::constant;
-  std::int32_t a = 0, b = 0;
-  const Function* function = nullptr;
-  double constant = 0;
-};
 
 // Which branch of an IF a condition selects: 0, 1, 2 for negative, zero, positive; NaN selects none.
 double selected_branch(double condition);
 
 class ExpressionProgram {
  public:
-  std::vector<ExpressionNode> nodes;  // the last one is the result
-  std::vector<std::int32_t> operands;
-  std::vector<Span> places;  // of each node
-  std::vector<Atom> atoms;
-  std::vector<SplineUse> splines;  // evaluate to NaN until their curves are attached
-  std::vector<RoutineUse> routines;
-  std::vector<std::int32_t> switching;  // nodes with kinks or jumps that depend on the motion
-  Span at;
+  ExpressionProgram(const ProgramDraft&, ProgramShapes&);
+  // The same with other splines.
+  ExpressionProgram(const ExpressionProgram&, std::vector<SplineUse>);
 
-  // Fills `switching`, when all nodes are there.
-  void find_switching();
+  std::span<const ExpressionNode> nodes() const { return shape_->nodes; }  // the last one is the result
+  std::span<const std::int32_t> operands() const { return shape_->operands; }
+  std::span<const std::int32_t> switching() const { return shape_->switching; }
+  const Function& function_of(const ExpressionNode& call) const { return *shape_->functions[call.function]; }
+  bool is_size(const ExpressionNode& node) const {
+    return node.kind == ExpressionNode::Kind::call && function_of(node).is_size;
+  }
+  double constant_of(const ExpressionNode& node) const { return numbers_[static_cast<std::size_t>(node.b)]; }
+  Span place(std::size_t node) const;
+  std::size_t atom_count() const { return has_whole_atoms() ? more_->atoms.size() : shape_->atoms.size(); }
+  Atom atom(std::size_t number) const;
+  std::span<const SplineUse> splines() const;  // evaluate to NaN until their curves are attached
+  std::span<const RoutineUse> routines() const;
+  Span at() const { return {source_, offset_, shape_->length}; }
+  // To make another one of it.
+  ProgramDraft draft() const;
+
   // One sweep over all nodes, those of branches not taken included: as many switches whichever are.
   void switches(std::span<const double> atom_values, ExpressionWorkspace<double>&, SwitchList&) const;
   // What tables have between the ends of a step.
@@ -80,8 +70,8 @@ class ExpressionProgram {
   // What a node of a routine reads.
   template <class T>
   RoutineInputs<T> inputs_of(const ExpressionNode& node, const std::vector<T>& value) const {
-    const std::size_t count = routines[static_cast<std::size_t>(node.a)].inputs;
-    return {value, std::span(operands).subspan(static_cast<std::size_t>(node.b), count)};
+    const std::size_t count = routines()[static_cast<std::size_t>(node.a)].inputs;
+    return {value, operands().subspan(static_cast<std::size_t>(node.b), count)};
   }
 
  private:
@@ -93,9 +83,9 @@ class ExpressionProgram {
   // Where a branch goes on.
   std::size_t first_node(const ExpressionNode& branch, double selection) const {
     const std::size_t entry = selection >= 0 ? static_cast<std::size_t>(selection) : 3;
-    return static_cast<std::size_t>(operands[static_cast<std::size_t>(branch.b) + entry]);
+    return static_cast<std::size_t>(operands()[static_cast<std::size_t>(branch.b) + entry]);
   }
-  // A sweep over all nodes as far as the last of `switching`, each of which is visited with its number and whether an
+  // A sweep over all nodes as far as the last of switching(), each of which is visited with its number and whether an
   // evaluation would come there.
   template <class Visit>
   void sweep_switching(std::span<const double> atom_values, std::vector<double>& value, const Visit&) const;
@@ -110,6 +100,22 @@ class ExpressionProgram {
   UndefinedOperation explain_value(std::size_t node, const std::vector<T>& value) const;
   template <class T>
   UndefinedOperation explain_partial(std::size_t node, const std::vector<T>& value) const;
+
+  // What few expressions have.
+  struct More {
+    std::vector<SplineUse> splines;
+    std::vector<RoutineUse> routines;
+    std::vector<Atom> atoms;   // all of them, where the shape cannot tell one: of DELAY, or in another text
+    std::vector<Span> places;  // of all nodes, where one is in another text
+  };
+  bool has_whole_atoms() const { return more_ && !more_->atoms.empty(); }
+
+  std::shared_ptr<const ProgramShape> shape_;
+  const SourceText* source_;
+  std::uint32_t offset_;  // in it
+  // Constants of nodes, then arguments of atoms: a double holds every id exactly.
+  std::unique_ptr<double[]> numbers_;
+  std::unique_ptr<const More> more_;
 };
 
 }  // namespace dynalin

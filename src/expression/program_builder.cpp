@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "expression/program.h"
+
 namespace dynalin {
 
 namespace {
@@ -17,7 +19,7 @@ using Kind = ExpressionNode::Kind;
 
 bool is_nan(double x) { return std::isnan(x); }
 
-double value_of_constants(const ExpressionNode& node, std::span<const double> a) {
+double value_of_constants(const DraftNode& node, std::span<const double> a) {
   switch (node.kind) {
     case Kind::negate:
       return -a[0];
@@ -39,7 +41,7 @@ double value_of_constants(const ExpressionNode& node, std::span<const double> a)
   }
 }
 
-std::string reason_for_no_value(const ExpressionNode& node, std::span<const double> a) {
+std::string reason_for_no_value(const DraftNode& node, std::span<const double> a) {
   std::string reason;
   if (node.kind == Kind::call) reason = node.function->domain(a);
   if (node.kind == Kind::power) reason = variable_power().domain(std::array{a[0], node.constant});
@@ -49,14 +51,16 @@ std::string reason_for_no_value(const ExpressionNode& node, std::span<const doub
 
 }  // namespace
 
-ProgramBuilder::ProgramBuilder(Diagnostics& diagnostics, std::size_t words) : diagnostics_(diagnostics) {
+ProgramBuilder::ProgramBuilder(Diagnostics& diagnostics, ProgramShapes& shapes, std::size_t words)
+    : diagnostics_(diagnostics), shapes_(shapes) {
+  constexpr std::size_t some = 4;
   program_.nodes.reserve(words);
   program_.places.reserve(words);
+  program_.atoms.reserve(some);
 }
 
-std::int32_t ProgramBuilder::push(const ExpressionNode& node, const Span& at) {
-  program_.nodes.push_back(node);
-  program_.places.push_back(at);
+std::int32_t ProgramBuilder::push(const DraftNode& node, const Span& at) {
+  program_.add(node, at);
   return next() - 1;
 }
 
@@ -72,7 +76,7 @@ std::int32_t ProgramBuilder::push_operands(std::span<const std::int32_t> nodes) 
 }
 
 std::optional<double> ProgramBuilder::constant_value(const Operand& operand) const {
-  const ExpressionNode& node = program_.nodes[static_cast<std::size_t>(operand.node)];
+  const DraftNode& node = program_.nodes[static_cast<std::size_t>(operand.node)];
   return node.kind == Kind::constant ? std::optional(node.constant) : std::nullopt;
 }
 
@@ -129,7 +133,7 @@ Operand ProgramBuilder::atom(const Atom& atom) {
 
 // Inside of an IF a constant without finite value is left for the run, which may never select its
 // branch.
-Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at) {
+Operand ProgramBuilder::fold(const DraftNode& node, std::span<const Operand> operands, const Span& at) {
   std::vector<double> values;
   values.reserve(operands.size());
   for (const Operand& operand : operands) values.push_back(*constant_value(operand));
@@ -150,14 +154,14 @@ Operand ProgramBuilder::fold(const ExpressionNode& node, std::span<const Operand
 }
 
 Operand ProgramBuilder::negate(const Operand& a, const Span& at) {
-  const ExpressionNode node{.kind = Kind::negate, .a = a.node};
+  const DraftNode node{.kind = Kind::negate, .a = a.node};
   if (constant_value(a)) return fold(node, {&a, 1}, at);
   return {push(node, at), at};
 }
 
 Operand ProgramBuilder::binary(Kind kind, const Operand& a, const Operand& b) {
   const Span at = join(a.at, b.at);
-  const ExpressionNode node{.kind = kind, .a = a.node, .b = b.node};
+  const DraftNode node{.kind = kind, .a = a.node, .b = b.node};
   const auto divisor = constant_value(b);
   if (constant_value(a) && divisor) return fold(node, std::array{a, b}, at);
   if (kind == Kind::divide && divisor == 0.0 && branch_depth_ == 0) {
@@ -172,7 +176,7 @@ Operand ProgramBuilder::power(const Operand& base, const Operand& exponent) {
   if (!n) return call(variable_power(), std::array{base, exponent}, at);
   // The exponent is the last node; it moves into the power itself.
   pop(1);
-  const ExpressionNode node{.kind = Kind::power, .a = base.node, .constant = *n};
+  const DraftNode node{.kind = Kind::power, .a = base.node, .constant = *n};
   if (constant_value(base)) return fold(node, {&base, 1}, at);
   return {push(node, at), at};
 }
@@ -193,7 +197,7 @@ Operand ProgramBuilder::call(const Function& function, std::span<const Operand> 
     std::string reason = function.domain(known);
     if (!reason.empty()) report_domain(std::move(reason), at);
   }
-  const ExpressionNode node{
+  const DraftNode node{
       .kind = Kind::call, .a = static_cast<std::int32_t>(list.size()), .b = push_operands(list), .function = &function};
   return all_constant ? fold(node, arguments, at) : Operand{push(node, at), at};
 }
@@ -201,9 +205,9 @@ Operand ProgramBuilder::call(const Function& function, std::span<const Operand> 
 Operand ProgramBuilder::spline(SplineUse use, const Operand& x, const Operand& z) {
   const Span at = use.at;
   program_.splines.push_back(std::move(use));
-  const ExpressionNode node{.kind = Kind::spline,
-                            .a = static_cast<std::int32_t>(program_.splines.size()) - 1,
-                            .b = push_operands(std::array{x.node, z.node})};
+  const DraftNode node{.kind = Kind::spline,
+                       .a = static_cast<std::int32_t>(program_.splines.size()) - 1,
+                       .b = push_operands(std::array{x.node, z.node})};
   return {push(node, at), at};
 }
 
@@ -252,15 +256,18 @@ Operand ProgramBuilder::close_if(const OpenIf& open, const Span& at) {
   return {merge, at};
 }
 
-std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) {
-  program_.at = at;
-  join_angles();
-  // Atoms of branches that a constant condition ruled out are gone.
+// Atoms of branches that a constant condition ruled out are gone.
+void ProgramBuilder::drop_unused_atoms() {
+  std::int32_t in_order = 0;
+  for (const DraftNode& node : program_.nodes) {
+    if (node.kind == Kind::atom && node.a == in_order) ++in_order;
+  }
+  if (static_cast<std::size_t>(in_order) == program_.atoms.size()) return;  // as in most expressions
   constexpr std::int32_t unused = -1;
   std::vector<std::int32_t> new_index(program_.atoms.size(), unused);
   std::vector<Atom> kept;
   kept.reserve(program_.atoms.size());
-  for (ExpressionNode& node : program_.nodes) {
+  for (DraftNode& node : program_.nodes) {
     if (node.kind != Kind::atom) continue;
     std::int32_t& index = new_index[static_cast<std::size_t>(node.a)];
     if (index == unused) {
@@ -269,14 +276,14 @@ std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) 
     }
     node.a = index;
   }
-  kept.shrink_to_fit();
   program_.atoms = std::move(kept);
-  program_.find_switching();
-  // Models have many expressions, and each lives as long as the model.
-  program_.nodes.shrink_to_fit();
-  program_.places.shrink_to_fit();
-  program_.operands.shrink_to_fit();
-  return std::make_shared<const ExpressionProgram>(std::move(program_));
+}
+
+std::shared_ptr<const ExpressionProgram> ProgramBuilder::finish(const Span& at) {
+  program_.at = at;
+  join_angles();
+  drop_unused_atoms();
+  return std::make_shared<const ExpressionProgram>(program_, shapes_);
 }
 
 }  // namespace dynalin

@@ -10,7 +10,7 @@
 #include <unordered_map>
 
 #include "base/diagnostics.h"
-#include "expression/program.h"
+#include "expression/program_draft.h"
 
 namespace dynalin {
 
@@ -40,7 +40,7 @@ struct OpenIf {
 class ProgramBuilder {
  public:
   // Of so many words, numbers and signs, each of which makes one node at the most where nothing is a vector.
-  ProgramBuilder(Diagnostics& diagnostics, std::size_t words);
+  ProgramBuilder(Diagnostics& diagnostics, ProgramShapes& shapes, std::size_t words);
 
   Operand constant(double value, const Span& at);
   // Stands for what could not be understood: NaN, which silences the checks of whatever uses it.
@@ -81,19 +81,21 @@ class ProgramBuilder {
   // Reads combinations of angles that are smooth as one quantity (smooth_angles.cpp).
   void join_angles();
   using Kind = ExpressionNode::Kind;
-  std::int32_t push(const ExpressionNode& node, const Span& at);
+  std::int32_t push(const DraftNode& node, const Span& at);
   void pop(std::size_t count);
   std::int32_t index_of(const Atom& atom);
+  void drop_unused_atoms();
   std::int32_t push_operands(std::span<const std::int32_t> nodes);
   std::int32_t next() const { return static_cast<std::int32_t>(program_.nodes.size()); }
   // Replaces a node whose operands are all constant by its value.
-  Operand fold(const ExpressionNode& node, std::span<const Operand> operands, const Span& at);
+  Operand fold(const DraftNode& node, std::span<const Operand> operands, const Span& at);
   void report_domain(std::string reason, const Span& at);
   // Of a vector of three measures, the measure that is its size.
   std::optional<Operand> size_of_measures(const Operand& v, const Span& at);
 
   Diagnostics& diagnostics_;
-  ExpressionProgram program_;
+  ProgramShapes& shapes_;
+  ProgramDraft program_;
   // By hash, of which distinct atoms may share one; empty as long as there are few.
   std::unordered_multimap<std::size_t, std::int32_t> atom_index_;
   std::size_t branch_depth_ = 0;

@@ -50,7 +50,7 @@ std::optional<Operand> ProgramBuilder::size_of_measures(const Operand& v, const 
   std::array<const Atom*, 3> parts;
   for (std::size_t k = 0; k < 3; ++k) {
     const Operand c = v.component(k);
-    const ExpressionNode& node = program_.nodes[static_cast<std::size_t>(c.node)];
+    const DraftNode& node = program_.nodes[static_cast<std::size_t>(c.node)];
     if (node.kind != Kind::atom || c.node != next() - 3 + static_cast<std::int32_t>(k)) return std::nullopt;
     parts[k] = &program_.atoms[static_cast<std::size_t>(node.a)];
   }

@@ -80,7 +80,7 @@ void visit_call_in_passes(const ExpressionProgram& program, const Function& func
     std::array<std::size_t, seeds_per_pass> seeded{};
     std::size_t count = 0;
     for (; k < operands.size() && count < seeds_per_pass; ++k) {
-      if (program.nodes[node(k)].kind == ExpressionNode::Kind::constant) continue;
+      if (program.nodes()[node(k)].kind == ExpressionNode::Kind::constant) continue;
       Scalar::seed(arguments[k], count);
       seeded[count++] = k;
     }
@@ -118,7 +118,7 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
                     Visit visit) {
   using Kind = ExpressionNode::Kind;
   const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
-  const auto varies = [&](std::size_t k) { return program.nodes[k].kind != Kind::constant; };
+  const auto varies = [&](std::size_t k) { return program.nodes()[k].kind != Kind::constant; };
   const auto is_constant_zero = [&](std::size_t k) { return !varies(k) && is_zero(value[k]); };
   switch (node.kind) {
     case Kind::constant:
@@ -147,30 +147,30 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
       return;
     }
     case Kind::power:
-      if (node.constant != 0.0) {
-        visit(a, T(node.constant * power_at(value[a], node.constant - 1.0)));
+      if (const double exponent = program.constant_of(node); exponent != 0.0) {
+        visit(a, T(exponent * power_at(value[a], exponent - 1.0)));
       }
       return;
     case Kind::call: {
-      const std::span operands(program.operands.data() + b, a);
+      const auto operands = program.operands().subspan(b, a);
       // Few functions have long lists; the others need not clear so much memory.
-      if (a <= 8) return visit_call<8>(program, *node.function, operands, value, visit);
-      return visit_call<most_arguments>(program, *node.function, operands, value, visit);
+      if (a <= 8) return visit_call<8>(program, program.function_of(node), operands, value, visit);
+      return visit_call<most_arguments>(program, program.function_of(node), operands, value, visit);
     }
     case Kind::spline: {
       using Scalar = SeededScalar<T>;
-      const auto x = static_cast<std::size_t>(program.operands[b]),
-                 z = static_cast<std::size_t>(program.operands[b + 1]);
+      const auto x = static_cast<std::size_t>(program.operands()[b]),
+                 z = static_cast<std::size_t>(program.operands()[b + 1]);
       auto seeded_x = Scalar::plain(value[x]), seeded_z = Scalar::plain(value[z]);
       Scalar::seed(seeded_x, 0), Scalar::seed(seeded_z, 1);
-      const auto result = program.splines[a].evaluate(seeded_x, seeded_z);
+      const auto result = program.splines()[a].evaluate(seeded_x, seeded_z);
       if (varies(x)) visit(x, Scalar::partial(result, 0));
       if (varies(z)) visit(z, Scalar::partial(result, 1));
       return;
     }
     // An input that it does not read here is none, so that no undefined gradient of it counts.
     case Kind::routine: {
-      const RoutineUse& use = program.routines[a];
+      const RoutineUse& use = program.routines()[a];
       const auto inputs = program.inputs_of(node, value);
       const auto partials = use.routine->partials(inputs, use.which);
       for (std::size_t k = 0; k < inputs.size(); ++k) {
@@ -181,7 +181,7 @@ void visit_partials(const ExpressionProgram& program, const ExpressionNode& node
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return;
-      const auto result = program.operands[b + static_cast<std::size_t>(selection)];
+      const auto result = program.operands()[b + static_cast<std::size_t>(selection)];
       return visit(static_cast<std::size_t>(result), 1.0);
     }
   }

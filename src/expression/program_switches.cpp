@@ -1,4 +1,5 @@
 // Where an expression has kinks and jumps: what changes its sign there.
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -18,15 +19,20 @@ bool stands_still(const Atom& atom) { return dynalin::stands_still(atom.function
 
 // A condition that is constant between jumps, such as one made of IFs with constant branches, adds nothing to what
 // makes it jump.
-void ExpressionProgram::find_switching() {
-  std::vector<char> in_steps(nodes.size());
-  switching.clear();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const ExpressionNode& node = nodes[i];
+std::vector<std::int32_t> switching_nodes(const ProgramDraft& draft) {
+  const auto may_switch = [](const DraftNode& node) {
+    return node.kind == Kind::branch || node.kind == Kind::spline ||
+           (node.kind == Kind::call && node.function->switches);
+  };
+  if (std::ranges::none_of(draft.nodes, may_switch)) return {};
+  std::vector<char> in_steps(draft.nodes.size());
+  std::vector<std::int32_t> switching;
+  for (std::size_t i = 0; i < draft.nodes.size(); ++i) {
+    const DraftNode& node = draft.nodes[i];
     const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
     const auto all_in_steps = [&](std::size_t count) {
       for (std::size_t k = b; k < b + count; ++k)
-        if (!in_steps[static_cast<std::size_t>(operands[k])]) return false;
+        if (!in_steps[static_cast<std::size_t>(draft.operands[k])]) return false;
       return true;
     };
     bool switches = false;
@@ -36,7 +42,7 @@ void ExpressionProgram::find_switching() {
         in_steps[i] = true;
         break;
       case Kind::atom:
-        in_steps[i] = stands_still(atoms[a]);
+        in_steps[i] = stands_still(draft.atoms[a]);
         break;
       case Kind::negate:
       case Kind::power:
@@ -68,22 +74,22 @@ void ExpressionProgram::find_switching() {
     }
     if (switches) switching.push_back(static_cast<std::int32_t>(i));
   }
-  switching.shrink_to_fit();
+  return switching;
 }
 
 void ExpressionProgram::add_switches(const ExpressionNode& node, const std::vector<double>& value, bool taken,
                                      SwitchList& out) const {
   const auto a = static_cast<std::size_t>(node.a), b = static_cast<std::size_t>(node.b);
-  const auto operand = [&](std::size_t k) { return value[static_cast<std::size_t>(operands[b + k])]; };
+  const auto operand = [&](std::size_t k) { return value[static_cast<std::size_t>(operands()[b + k])]; };
   const std::size_t first = out.counts.size();
   if (node.kind == Kind::branch) {
     out.add(value[a]);
   } else if (node.kind == Kind::spline) {
-    splines[a].switches(operand(0), operand(1), out);
+    splines()[a].switches(operand(0), operand(1), out);
   } else {
     std::array<double, most_arguments> arguments;
     for (std::size_t k = 0; k < a; ++k) arguments[k] = operand(k);
-    node.function->switches(std::span<const double>(arguments.data(), a), out);
+    function_of(node).switches(std::span<const double>(arguments.data(), a), out);
   }
   if (taken) return;
   for (std::size_t k = first; k < out.counts.size(); ++k) out.counts[k] = false;
@@ -92,12 +98,13 @@ void ExpressionProgram::add_switches(const ExpressionNode& node, const std::vect
 template <class Visit>
 void ExpressionProgram::sweep_switching(std::span<const double> atom_values, std::vector<double>& value,
                                         const Visit& visit) const {
-  assert(atom_values.size() == atoms.size());
-  if (value.size() < nodes.size()) value.resize(nodes.size());
+  assert(atom_values.size() == atom_count());
+  const std::span<const ExpressionNode> all = nodes();
+  if (value.size() < all.size()) value.resize(all.size());
   std::size_t taken = 0;  // the next node that an evaluation would visit
-  auto next = switching.begin();
-  for (std::size_t i = 0; i < nodes.size() && next != switching.end(); ++i) {
-    const ExpressionNode& node = nodes[i];
+  auto next = switching().begin();
+  for (std::size_t i = 0; i < all.size() && next != switching().end(); ++i) {
+    const ExpressionNode& node = all[i];
     const bool visited = i == taken;
     if (visited) taken = i + 1;
     if (node.kind == Kind::branch) {
@@ -129,7 +136,7 @@ void ExpressionProgram::look_ahead(std::span<const double> from, std::span<const
   std::vector<Place> begins;
   const auto place = [&](const ExpressionNode& node, bool taken) {
     const auto argument = [&](std::size_t k) {
-      return workspace.value[static_cast<std::size_t>(operands[static_cast<std::size_t>(node.b) + k])];
+      return workspace.value[static_cast<std::size_t>(operands()[static_cast<std::size_t>(node.b) + k])];
     };
     return Place{argument(0), argument(1), taken};
   };
@@ -140,7 +147,7 @@ void ExpressionProgram::look_ahead(std::span<const double> from, std::span<const
   sweep_switching(to, workspace.value, [&](const ExpressionNode& node, bool taken) {
     if (node.kind != Kind::spline) return;
     const Place a = *begin++, b = place(node, taken);
-    if (a.taken || b.taken) splines[static_cast<std::size_t>(node.a)].look_ahead(a.x, a.z, b.x, b.z, reach);
+    if (a.taken || b.taken) splines()[static_cast<std::size_t>(node.a)].look_ahead(a.x, a.z, b.x, b.z, reach);
   });
 }
 

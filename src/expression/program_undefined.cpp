@@ -13,7 +13,7 @@ namespace {
 
 using Kind = ExpressionNode::Kind;
 
-std::string operator_name(const ExpressionNode& node) {
+std::string operator_name(const ExpressionProgram& program, const ExpressionNode& node) {
   switch (node.kind) {
     case Kind::negate:
     case Kind::subtract:
@@ -27,7 +27,7 @@ std::string operator_name(const ExpressionNode& node) {
     case Kind::power:
       return "**";
     case Kind::call:
-      return std::string(node.function->name);
+      return std::string(program.function_of(node).name);
     case Kind::spline:
       return "the spline";
     case Kind::routine:
@@ -65,7 +65,7 @@ std::vector<std::size_t> operands_in_use(const ExpressionProgram& program, const
     case Kind::call: {
       std::vector<std::size_t> all;
       for (std::size_t k = b; k < b + a; ++k) {
-        all.push_back(static_cast<std::size_t>(program.operands[k]));
+        all.push_back(static_cast<std::size_t>(program.operands()[k]));
       }
       return all;
     }
@@ -75,11 +75,11 @@ std::vector<std::size_t> operands_in_use(const ExpressionProgram& program, const
       return all;
     }
     case Kind::spline:
-      return {static_cast<std::size_t>(program.operands[b]), static_cast<std::size_t>(program.operands[b + 1])};
+      return {static_cast<std::size_t>(program.operands()[b]), static_cast<std::size_t>(program.operands()[b + 1])};
     case Kind::merge: {
       const double selection = value_of(value[a]);
       if (std::isnan(selection)) return {a};
-      return {static_cast<std::size_t>(program.operands[b + static_cast<std::size_t>(selection)])};
+      return {static_cast<std::size_t>(program.operands()[b + static_cast<std::size_t>(selection)])};
     }
   }
   return {};
@@ -99,23 +99,26 @@ std::vector<double> argument_values(const ExpressionProgram& program, const Expr
   for (const std::size_t k : operands_in_use(program, node, value)) {
     arguments.push_back(value_of(value[k]));
   }
-  if (node.kind == Kind::power) arguments.push_back(node.constant);
+  if (node.kind == Kind::power) arguments.push_back(program.constant_of(node));
   return arguments;
 }
 
 // Why a node has no finite value while its operands have.
-std::string reason_of_value(const ExpressionNode& node, const std::vector<double>& arguments, const Span& at) {
+std::string reason_of_value(const ExpressionProgram& program, const ExpressionNode& node,
+                            const std::vector<double>& arguments, const Span& at) {
   std::string reason;
-  if (node.kind == Kind::call && node.function->of_vector) {
-    const bool in_domain = node.function->domain(arguments).empty();
-    return in_domain ? fmt::format("the result of {} is too large", at.text())
-                     : fmt::format("{} has no value where its vector is zero", at.text());
+  if (node.kind == Kind::call) {
+    const Function& function = program.function_of(node);
+    reason = function.domain(arguments);
+    if (function.of_vector) {
+      return reason.empty() ? fmt::format("the result of {} is too large", at.text())
+                            : fmt::format("{} has no value where its vector is zero", at.text());
+    }
   }
-  if (node.kind == Kind::call) reason = node.function->domain(arguments);
   if (node.kind == Kind::power) reason = variable_power().domain(arguments);
   if (node.kind == Kind::divide && arguments[1] == 0.0) reason = "division by 0";
   if (!reason.empty()) return reason;
-  return fmt::format("the result of {} is too large at {}", operator_name(node), in_words(arguments));
+  return fmt::format("the result of {} is too large at {}", operator_name(program, node), in_words(arguments));
 }
 
 }  // namespace
@@ -125,53 +128,51 @@ UndefinedOperation ExpressionProgram::explain_value(std::size_t i, const std::ve
   // From the result down to a node with finite operands.
   for (bool descended = true; descended;) {
     descended = false;
-    for (const std::size_t k : operands_in_use(*this, nodes[i], value)) {
+    for (const std::size_t k : operands_in_use(*this, nodes()[i], value)) {
       if (is_finite(value[k])) continue;
       i = k;
       descended = true;
       break;
     }
   }
-  const ExpressionNode& node = nodes[i];
+  const ExpressionNode& node = nodes()[i];
   const bool value_is_finite = std::isfinite(value_of(value[i]));
   const std::string_view what = value_is_finite ? "time derivative" : "value";
   if (node.kind == Kind::atom || node.kind == Kind::constant) {
-    const std::string name(node.kind == Kind::atom ? atoms[static_cast<std::size_t>(node.a)].function->name
-                                                   : places[i].text());
-    return {name, places[i], fmt::format("{} has no finite {}", places[i].text(), what)};
+    const std::string name(node.kind == Kind::atom ? atom(static_cast<std::size_t>(node.a)).function->name
+                                                   : place(i).text());
+    return {name, place(i), fmt::format("{} has no finite {}", place(i).text(), what)};
   }
   const std::vector<double> arguments = argument_values(*this, node, value);
-  const std::string name = operator_name(node);
+  const std::string name = operator_name(*this, node);
   if (!value_is_finite && node.kind == Kind::routine)
-    return {name, places[i], routines[static_cast<std::size_t>(node.a)].routine->reason_of_value(arguments)};
-  if (!value_is_finite) return {name, places[i], reason_of_value(node, arguments, places[i])};
+    return {name, place(i), routines()[static_cast<std::size_t>(node.a)].routine->reason_of_value(arguments)};
+  if (!value_is_finite) return {name, place(i), reason_of_value(*this, node, arguments, place(i))};
   if (node.kind == Kind::routine) {
-    const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
-    return {name, places[i],
+    const Routine& routine = *routines()[static_cast<std::size_t>(node.a)].routine;
+    return {name, place(i),
             routine.name() + " gives no derivative in time of its value: an entry ..._derivatives would"};
   }
-  if (node.kind == Kind::call && node.function->is_size)
-    return {name, places[i], std::string(places[i].text()) + " has no derivative where it is 0"};
-  return {name, places[i], fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
+  if (is_size(node)) return {name, place(i), std::string(place(i).text()) + " has no derivative where it is 0"};
+  return {name, place(i), fmt::format("a time derivative of {} is infinite at {}", name, in_words(arguments))};
 }
 
 template <class T>
 UndefinedOperation ExpressionProgram::explain_partial(std::size_t i, const std::vector<T>& value) const {
-  const ExpressionNode& node = nodes[i];
+  const ExpressionNode& node = nodes()[i];
   bool infinite = true, in_time = true;
   visit_partials(*this, node, value, [&](std::size_t, const auto& partial) {
     const double p = value_of(partial);
     in_time = in_time && std::isfinite(p);
     infinite = infinite && !std::isnan(p);
   });
-  const std::string name = operator_name(node);
+  const std::string name = operator_name(*this, node);
   if (node.kind == Kind::routine) {
-    const Routine& routine = *routines[static_cast<std::size_t>(node.a)].routine;
-    return {name, places[i], routine.reason_of_partials(argument_values(*this, node, value))};
+    const Routine& routine = *routines()[static_cast<std::size_t>(node.a)].routine;
+    return {name, place(i), routine.reason_of_partials(argument_values(*this, node, value))};
   }
-  if (node.kind == Kind::call && node.function->is_size)
-    return {name, places[i], std::string(places[i].text()) + " has no derivative where it is 0"};
-  return {name, places[i],
+  if (is_size(node)) return {name, place(i), std::string(place(i).text()) + " has no derivative where it is 0"};
+  return {name, place(i),
           fmt::format("the {}derivative of {} is {} at {}", in_time ? "second " : "", name,
                       infinite ? "infinite" : "not defined", in_words(argument_values(*this, node, value)))};
 }
@@ -181,20 +182,20 @@ std::optional<UndefinedOperation> ExpressionProgram::find_undefined(std::span<co
                                                                     UndefinedSearch search) const {
   ExpressionWorkspace<T> workspace;
   if (!is_finite(evaluate(atom_values, workspace))) {
-    return explain_value(nodes.size() - 1, workspace.value);
+    return explain_value(nodes().size() - 1, workspace.value);
   }
   if (search == UndefinedSearch::value) return std::nullopt;
 
   sweep_back(workspace);
   // Each node is an operand of one other, so an adjoint that is not finite leads up to where it
   // arose.
-  std::vector<std::size_t> user(nodes.size(), nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  std::vector<std::size_t> user(nodes().size(), nodes().size());
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
     if (!workspace.reached[i]) continue;
-    for (const std::size_t k : operands_in_use(*this, nodes[i], workspace.value)) user[k] = i;
+    for (const std::size_t k : operands_in_use(*this, nodes()[i], workspace.value)) user[k] = i;
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].kind != Kind::atom || is_finite(workspace.adjoint[i])) continue;
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    if (nodes()[i].kind != Kind::atom || is_finite(workspace.adjoint[i])) continue;
     std::size_t cause = user[i];
     while (!is_finite(workspace.adjoint[cause])) cause = user[cause];
     UndefinedOperation found = explain_partial(cause, workspace.value);

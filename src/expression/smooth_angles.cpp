@@ -29,7 +29,7 @@ using Kind = ExpressionNode::Kind;
 
 // Functions of angles.
 enum class Wave : std::uint8_t { sine, cosine };
-bool is_call_of(Wave wave, const ExpressionNode& n) {
+bool is_call_of(Wave wave, const DraftNode& n) {
   static const std::array functions = {find_function("SIN"), find_function("COS")};
   return n.kind == Kind::call && n.function == functions[static_cast<std::size_t>(wave)];
 }
@@ -61,7 +61,7 @@ constexpr std::array squares = {std::pair{THETA, THETA_SQUARED}, std::pair{INCAN
 
 class Rewriting {
  public:
-  explicit Rewriting(ExpressionProgram& program) : p_(program) {}
+  explicit Rewriting(ProgramDraft& program) : p_(program) {}
 
   void run() {
     for (std::size_t k = 0; k < p_.nodes.size(); ++k) {
@@ -89,7 +89,7 @@ class Rewriting {
   }
 
  private:
-  const ExpressionNode& node(std::int32_t k) const { return p_.nodes[static_cast<std::size_t>(k)]; }
+  const DraftNode& node(std::int32_t k) const { return p_.nodes[static_cast<std::size_t>(k)]; }
   const Atom* atom(std::int32_t k, Measure measure) const {
     if (node(k).kind != Kind::atom) return nullptr;
     const Atom& a = p_.atoms[static_cast<std::size_t>(node(k).a)];
@@ -97,7 +97,7 @@ class Rewriting {
   }
   // That angle, whose sine or cosine this node is.
   const Atom* angle_of_call(std::size_t k, Wave wave, Measure angle) const {
-    const ExpressionNode& n = p_.nodes[k];
+    const DraftNode& n = p_.nodes[k];
     return is_call_of(wave, n) ? atom(p_.operands[static_cast<std::size_t>(n.b)], angle) : nullptr;
   }
   static bool same_markers(const Atom& a, const Atom& b) { return a.argument == b.argument; }
@@ -162,7 +162,7 @@ class Rewriting {
       p_.nodes[k] = {.kind = Kind::negate, .a = argument};
       return;
     }
-    const ExpressionNode inner = node(p_.nodes[k].a);
+    const DraftNode inner = node(p_.nodes[k].a);
     if (inner.kind != Kind::multiply || users(p_.nodes[k].a) > 1 || users(y) > 1) return;
     const auto both = together(inner.b, y);
     if (!both) return;
@@ -180,7 +180,7 @@ class Rewriting {
 
   // x ± y, or (rest ± x) ± y, with x and y two turns about axes that may coincide.
   void sum(std::size_t k) {
-    const ExpressionNode outer = p_.nodes[k];
+    const DraftNode outer = p_.nodes[k];
     const double sign_y = outer.kind == Kind::add ? 1 : -1;
     if (const auto pair = turns(outer.a, outer.b)) {
       const auto& [with_plus, with_minus, swapped] = *pair;
@@ -193,7 +193,7 @@ class Rewriting {
       p_.nodes[k] = {.kind = Kind::negate, .a = outer.b};
       return;
     }
-    const ExpressionNode inner = node(outer.a);
+    const DraftNode inner = node(outer.a);
     if ((inner.kind != Kind::add && inner.kind != Kind::subtract) || users(outer.a) > 1 || users(outer.b) > 1) return;
     const auto pair = turns(inner.b, outer.b);
     if (!pair) return;
@@ -225,7 +225,7 @@ class Rewriting {
   const Atom* of(std::int32_t k) const { return &p_.atoms[static_cast<std::size_t>(node(k).a)]; }
 
   template <class Visit>
-  void for_operands(const ExpressionNode& n, Visit&& visit) const {
+  void for_operands(const DraftNode& n, Visit&& visit) const {
     const auto listed = [&](std::int32_t count) {
       for (std::int32_t k = 0; k < count; ++k) visit(p_.operands[static_cast<std::size_t>(n.b + k)]);
     };
@@ -257,18 +257,18 @@ class Rewriting {
   }
   std::size_t users(std::int32_t of) const {
     std::size_t count = 0;
-    for (const ExpressionNode& n : p_.nodes) for_operands(n, [&](std::int32_t k) { count += k == of; });
+    for (const DraftNode& n : p_.nodes) for_operands(n, [&](std::int32_t k) { count += k == of; });
     return count;
   }
 
   // What nothing reads any more is the constant 0: its atoms are not looked at.
   void clear_unused() {
     std::vector<std::size_t> count(p_.nodes.size(), 0);
-    for (const ExpressionNode& n : p_.nodes) {
+    for (const DraftNode& n : p_.nodes) {
       for_operands(n, [&](std::int32_t k) { ++count[static_cast<std::size_t>(k)]; });
     }
     for (std::size_t k = p_.nodes.size() - 1; k-- > 0;) {
-      ExpressionNode& n = p_.nodes[k];
+      DraftNode& n = p_.nodes[k];
       const bool is_flow = n.kind == Kind::jump || n.kind == Kind::branch || n.kind == Kind::merge;
       if (count[k] > 0 || is_flow) continue;
       for_operands(n, [&](std::int32_t of) { --count[static_cast<std::size_t>(of)]; });
@@ -276,7 +276,7 @@ class Rewriting {
     }
   }
 
-  ExpressionProgram& p_;
+  ProgramDraft& p_;
   bool changed_ = false;
 };
 

@@ -16,19 +16,18 @@ struct Place {
 
 class Substitution {
  public:
-  explicit Substitution(ExpressionProgram& out) : out_(out) {}
+  explicit Substitution(ProgramDraft& out) : out_(out) {}
 
   // Copies `program` behind what is there and returns the node of its result; `defined` holds the nodes whose values
   // take the place of its atoms, −1 for those that stay.
-  std::int32_t append(const ExpressionProgram& program, const std::vector<std::int32_t>& defined) {
+  std::int32_t append(const ProgramDraft& program, const std::vector<std::int32_t>& defined) {
     std::vector<Place> places(program.nodes.size());
     for (std::size_t k = 0; k < program.nodes.size(); ++k) {
-      const ExpressionNode& node = program.nodes[k];
+      const DraftNode& node = program.nodes[k];
       const bool given = node.kind == Kind::atom && !defined.empty() && defined[static_cast<std::size_t>(node.a)] >= 0;
       places[k] = {next(), given ? defined[static_cast<std::size_t>(node.a)] : next()};
       if (given) continue;
-      out_.nodes.push_back(node);
-      out_.places.push_back(program.places[k]);
+      out_.add(node, program.places[k]);
     }
     for (std::size_t k = 0; k < program.nodes.size(); ++k) {
       if (places[k].entry == places[k].value) renumber(program, places, k);
@@ -39,20 +38,18 @@ class Substitution {
   // The result of a program is its last node.
   void finish(std::int32_t result, const Span& at) {
     if (result + 1 == next()) return;
-    ExpressionNode zero, sum;
+    DraftNode zero, sum;
     zero.kind = Kind::constant;
     sum.kind = Kind::add, sum.a = result, sum.b = next();
-    for (const ExpressionNode& node : {zero, sum}) {
-      out_.nodes.push_back(node);
-      out_.places.push_back(at);
-    }
+    out_.add(zero, at);
+    out_.add(sum, at);
   }
 
  private:
   std::int32_t next() const { return static_cast<std::int32_t>(out_.nodes.size()); }
 
-  void renumber(const ExpressionProgram& program, const std::vector<Place>& places, std::size_t k) {
-    ExpressionNode& node = out_.nodes[static_cast<std::size_t>(places[k].value)];
+  void renumber(const ProgramDraft& program, const std::vector<Place>& places, std::size_t k) {
+    DraftNode& node = out_.nodes[static_cast<std::size_t>(places[k].value)];
     const auto value = [&](std::int32_t old) { return places[static_cast<std::size_t>(old)].value; };
     const auto entry = [&](std::int32_t old) { return places[static_cast<std::size_t>(old)].entry; };
     const auto move_operands = [&](std::int32_t count, bool entries) {
@@ -118,27 +115,28 @@ class Substitution {
     return static_cast<std::int32_t>(out_.atoms.size()) - 1;
   }
 
-  ExpressionProgram& out_;
+  ProgramDraft& out_;
 };
 
 }  // namespace
 
 // Each definition stands once, in front of all that reads it.
 Expression Expression::with_definitions(const std::function<std::optional<Expression>(const Atom&)>& define) const {
-  auto program = std::make_shared<ExpressionProgram>();
-  program->at = program_->at;
-  Substitution out(*program);
+  const ProgramDraft own = program_->draft();
+  ProgramDraft draft;
+  draft.at = own.at;
+  Substitution out(draft);
   std::vector<std::int32_t> defined;
   bool any = false;
-  for (const Atom& a : program_->atoms) {
+  for (const Atom& a : own.atoms) {
     const auto e = define(a);
-    defined.push_back(e ? out.append(*e->program_, {}) : -1);
+    defined.push_back(e ? out.append(e->program_->draft(), {}) : -1);
     any = any || e;
   }
   if (!any) return *this;
-  out.finish(out.append(*program_, defined), program_->at);
-  program->find_switching();
-  return Expression(std::move(program));
+  out.finish(out.append(own, defined), own.at);
+  ProgramShapes alone;
+  return Expression(std::make_shared<const ExpressionProgram>(draft, alone));
 }
 
 }  // namespace dynalin

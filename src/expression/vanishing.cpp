@@ -20,9 +20,9 @@ using Kind = ExpressionNode::Kind;
 constexpr double infinite_order = std::numeric_limits<double>::infinity();
 
 // The order in which a function grows at a point where its slope is infinite, of one of its argument; 0 if unknown.
-double order_of_function(const ExpressionNode& node) {
-  if (node.kind == Kind::power) return std::max(node.constant, 0.0);
-  return node.kind == Kind::call ? node.function->growth_at_infinity : 0;
+double order_of_function(const ExpressionProgram& program, const ExpressionNode& node) {
+  if (node.kind == Kind::power) return std::max(program.constant_of(node), 0.0);
+  return node.kind == Kind::call ? program.function_of(node).growth_at_infinity : 0;
 }
 
 }  // namespace
@@ -33,9 +33,9 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
   const std::vector<T>& value = workspace.value;
   std::vector<double>& order = workspace.order;
   std::vector<char>& smooth = workspace.smooth;
-  if (order.size() < nodes.size()) order.resize(nodes.size()), smooth.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const ExpressionNode& node = nodes[i];
+  if (order.size() < nodes().size()) order.resize(nodes().size()), smooth.resize(nodes().size());
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    const ExpressionNode& node = nodes()[i];
     order[i] = node.kind == Kind::constant ? infinite_order : 1, smooth[i] = true;
     if (node.kind == Kind::constant || node.kind == Kind::atom || node.kind == Kind::branch ||
         node.kind == Kind::jump) {
@@ -54,7 +54,7 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
       smooth[i] = smooth[i] && smooth[operand];
     });
     if (infinite) {
-      order[i] = order_of_function(node) * slowest;
+      order[i] = order_of_function(*this, node) * slowest;
       smooth[i] = order[i] > 1;
       continue;
     }
@@ -67,13 +67,14 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
       if (node.kind == Kind::divide) remainder = std::min(remainder, 2 * order[b]);
     }
     // A power of what is zero has that order and no other.
-    if (node.kind == Kind::power && value_of(value[static_cast<std::size_t>(node.a)]) == 0.0 && node.constant > 0) {
-      remainder = node.constant == 1.0 ? infinite_order : node.constant * slowest;
+    const double exponent = node.kind == Kind::power ? constant_of(node) : 0;
+    if (exponent > 0 && value_of(value[static_cast<std::size_t>(node.a)]) == 0.0) {
+      remainder = exponent == 1.0 ? infinite_order : exponent * slowest;
     }
     if (node.kind == Kind::call || node.kind == Kind::spline) {
       // Of what functions do beyond their slope no more is known than that they are continuous and smooth but for
       // kinks, where the slope is zero by convention.
-      const bool kink = node.kind == Kind::call && node.function->flat_at_kinks;
+      const bool kink = node.kind == Kind::call && function_of(node).flat_at_kinks;
       order[i] = std::min(order[i], slowest);
       smooth[i] = smooth[i] && (kink ? slowest >= 1 : remainder > 1);
       continue;
@@ -81,20 +82,20 @@ bool ExpressionProgram::is_differentiable(ExpressionWorkspace<T>& workspace) con
     order[i] = std::min(order[i], remainder);
     smooth[i] = smooth[i] && remainder > 1;
   }
-  return smooth[nodes.size() - 1];
+  return smooth[nodes().size() - 1];
 }
 
 std::optional<Span> ExpressionProgram::size_of_nothing(ExpressionWorkspace<double>& workspace) const {
   bool ordered = false;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const ExpressionNode& node = nodes[i];
-    if (node.kind != Kind::call || !node.function->is_size) continue;
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    const ExpressionNode& node = nodes()[i];
+    if (!is_size(node)) continue;
     if (!workspace.reached[i] || workspace.value[i] != 0.0 || workspace.adjoint[i] == 0.0) continue;
     if (!ordered) is_differentiable(workspace), ordered = true;
-    const std::span vector(operands.data() + node.b, static_cast<std::size_t>(node.a));
+    const auto vector = operands().subspan(static_cast<std::size_t>(node.b), static_cast<std::size_t>(node.a));
     // A vector that leaves zero faster than the model moves has a size without a kink.
     const auto grows = [&](std::int32_t k) { return workspace.order[static_cast<std::size_t>(k)] <= 1; };
-    if (std::any_of(vector.begin(), vector.end(), grows)) return places[i];
+    if (std::any_of(vector.begin(), vector.end(), grows)) return place(i);
   }
   return std::nullopt;
 }

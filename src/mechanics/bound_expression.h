@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "expression/expression.h"
@@ -28,7 +29,7 @@ class BoundExpression {
   int order() const { return order_; }
   bool is_constant() const { return bound_atoms().empty(); }
   // The first atom that reads how a marker moves along a curve, null if none does.
-  const Atom* atom_on_curve() const;
+  std::optional<Atom> atom_on_curve() const;
 
   double value(const Motion&, ExpressionScratch&) const;
   // With respect to the atoms of the expression, in their order; lives in the scratch.

@@ -162,12 +162,12 @@ void BoundExpression::bind_force(BoundAtom& a, Force force, const Signals& signa
   a.force = std::make_shared<const Force>(std::move(force));
 }
 
-const Atom* BoundExpression::atom_on_curve() const {
+std::optional<Atom> BoundExpression::atom_on_curve() const {
   for (std::size_t k = 0; k < bound_atoms().size(); ++k) {
     for (const CoordinateBlock& b : blocks(bound_atoms()[k]))
-      if (b.kind == CoordinateBlock::Kind::curve_parameter) return &expression_.atoms()[k];
+      if (b.kind == CoordinateBlock::Kind::curve_parameter) return expression_.atoms()[k];
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 BoundExpression::BoundAtom BoundExpression::bind(const Atom& atom, Binder& binder, Binding binding) {

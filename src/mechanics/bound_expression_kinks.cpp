@@ -47,7 +47,7 @@ struct Sides {
 // Of a function that is moved along one measure by `step` · near, the first slope that is not the same on both sides.
 // Each counts by how far its measure goes, as rounding of the function tells: `reach`.
 std::string bend(const Sides& s, const std::function<double(std::size_t)>& reach, std::size_t moved,
-                 std::span<const Atom> atoms, std::string_view of) {
+                 const AtomList& atoms, std::string_view of) {
   for (std::size_t k = 0; k < atoms.size(); ++k) {
     const double a_far = s.below_far.slopes[k], b_far = s.above_far.slopes[k];
     const double a = s.below.slopes[k], b = s.above.slopes[k];
@@ -129,7 +129,7 @@ void BoundExpression::find_kink(const Motion& motion, double length, const Eleme
   }
   if (const auto size = expression_.size_of_nothing(scratch.plain)) return add_size(*size);
   // Those of routines are their own.
-  if (!expression_.has_switches() || !expression_.program().routines.empty()) return;
+  if (!expression_.has_switches() || !expression_.program().routines().empty()) return;
   const bool with_rates = derivatives == Derivatives::with_rates;
   if (with_rates) fill_rates(motion, scratch);
   for (std::size_t k = 0; k < bound_atoms().size(); ++k) {

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "expression/program_shape.h"
 #include "model/kind_finder.h"
 #include "model/model_reader.h"
 #include "routine/routine_data.h"
@@ -50,6 +51,8 @@ class Builder {
   Parsed<std::unique_ptr<Model>> build() {
     register_statements();
     read_statements();
+    // What follows needs none of these, and memory of its own.
+    known_ = std::vector<Known>(), bodies_at_ = std::vector<Span>(), shapes_ = ProgramShapes();
     // Later phases use values of other elements; after an error, reported here or when the text was read, these may be
     // half read.
     const auto& statements = model_->dataset->statements;
@@ -263,7 +266,7 @@ class Builder {
       const Placement p{&s, set_of(k), k.index, k.variant_argument, k.preceding_body};
       make_in_model(p);
       Diagnostics own;
-      ModelReader reader(*model_, p, examined_, routines_, *model_->dataset->source, own);
+      ModelReader reader(*model_, p, examined_, routines_, shapes_, *model_->dataset->source, own);
       reader.label_is_known = label_is_known;
       p.set->make(p.at());
       p.set->read(p.at(), reader);
@@ -284,6 +287,7 @@ class Builder {
   std::vector<Span> bodies_at_ = std::vector<Span>(1);  // of each body where it is defined, the ground first
   DatasetWithRoutines routines_;
   ExaminedStatements examined_;
+  ProgramShapes shapes_;
 };
 
 }  // namespace

@@ -6,6 +6,16 @@
 
 namespace dynalin {
 
+const std::shared_ptr<const StatedVelocity>& StatedVelocity::none() {
+  static const auto nothing = std::make_shared<const StatedVelocity>();
+  return nothing;
+}
+
+const std::shared_ptr<const BodyNature>& BodyNature::part() {
+  static const auto rigid = std::make_shared<const BodyNature>();
+  return rigid;
+}
+
 std::optional<ElementHandle> Model::find(std::string_view statement, std::int64_t id) const {
   const auto table = ids.find(statement);
   if (table == ids.end()) return std::nullopt;
@@ -43,10 +53,12 @@ double radius_of_most(const std::vector<Vector>& points) {
   Vector middle;
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<double> x;
+    x.reserve(points.size());
     for (const Vector& p : points) x.push_back(p[c]);
     middle[c] = ranked(std::move(x), points.size() / 2);
   }
   std::vector<double> distance;
+  distance.reserve(points.size());
   for (const Vector& p : points) distance.push_back(norm(p - middle));
   return ranked(std::move(distance), (3 * (points.size() - 1)) / 4);
 }
@@ -54,6 +66,7 @@ double radius_of_most(const std::vector<Vector>& points) {
 // The size of one body in the middle of all, from its mass centre to its markers or by its inertia; 0 without any.
 double size_of_bodies(const Model& model, std::span<const MarkerId> markers) {
   std::vector<double> size;
+  size.reserve(model.bodies.size());
   for (const Body& b : model.bodies)
     size.push_back(b.mass > 0 ? std::sqrt(std::max(0.0, trace(b.J_BC)) / b.mass) : 0.0);
   for (const MarkerId id : markers) {

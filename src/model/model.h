@@ -31,24 +31,35 @@ struct StatedVelocity {
 
   // The arguments of every body that state them.
   static constexpr std::array<std::string_view, 3> cm_names = {"VX", "VY", "VZ"}, angular_names = {"WX", "WY", "WZ"};
+  // Of all bodies that state no component.
+  static const std::shared_ptr<const StatedVelocity>& none();
 };
 
+// What a body is and how its coordinates are listed.
+struct BodyNature {
+  BodyListing listed;
+  std::vector<ExtraCoordinate> modal;  // coordinates of its own, where it changes its shape
+  ExtraKind modal_kind;                // what they are
+
+  // Of all rigid bodies that are PARTs.
+  static const std::shared_ptr<const BodyNature>& part();
+};
+
+// Large models have a great many: what few bodies have stands outside.
 struct Body {
   BodyKind kind = BodyKind::part;
+  std::array<bool, 6> exact{};  // X Y Z PSI THETA PHI held in the assembly
+  MarkerId origin_at{};         // the marker that is taken as its origin where the one written stands too far away
   ElementLabel label;
   Pose pose;             // BCS as drawn
-  MarkerId origin_at{};  // the marker that is taken as its origin where the one written stands too far away
   Vector origin_offset;  // of that marker from the origin written, along the axes of the BCS
   double mass = 0;       // dynamical: user mass / ucf [force·time²/length]
   double user_mass = 0;
   Vector p_BC;                         // CM in the BCS
   Matrix3 J_BC;                        // dynamical inertia tensor about the CM, BCS axes
   Matrix3 R_BI = Matrix3::identity();  // axes along which the dataset gives the inertia (IM, or CM), in the BCS
-  StatedVelocity velocity;
-  std::array<bool, 6> exact{};         // X Y Z PSI THETA PHI held in the assembly
-  std::vector<ExtraCoordinate> modal;  // coordinates of its own, where it changes its shape
-  ExtraKind modal_kind;                // what they are
-  BodyListing listed;                  // what it is and how its coordinates are listed
+  std::shared_ptr<const StatedVelocity> velocity = StatedVelocity::none();
+  std::shared_ptr<const BodyNature> nature = BodyNature::part();
 };
 
 struct Marker {

@@ -22,12 +22,14 @@ bool is_examined(std::string_view statement) {
 }
 
 ModelReader::ModelReader(Model& model, const Placement& placement, const ExaminedStatements& examined,
-                         const DatasetWithRoutines& routines, const SourceText& source, Diagnostics& diagnostics)
+                         const DatasetWithRoutines& routines, ProgramShapes& shapes, const SourceText& source,
+                         Diagnostics& diagnostics)
     : ElementReader(*placement.statement, source, diagnostics, placement.set->labels[placement.at()]),
       model_(model),
       placement_(placement),
       examined_(examined),
-      routines_(routines) {
+      routines_(routines),
+      shapes_(shapes) {
   assignments.reserve(placement.statement->arguments.size());
   if (placement.variant_argument != Placement::no_variant) {
     const auto& w = placement.statement->arguments[static_cast<std::size_t>(placement.variant_argument)];
@@ -64,7 +66,7 @@ std::optional<Expression> ModelReader::expression(const WrittenArgument& written
   const std::size_t before = diagnostics().error_count();
   Expression e = written.name.source == routines_.calls.get()
                      ? routine_at(written)
-                     : parse_expression(written.value(), *written.name.source, diagnostics());
+                     : parse_expression(written.value(), *written.name.source, diagnostics(), shapes_);
   if (diagnostics().error_count() == before) check_references(e);
   if (diagnostics().error_count() > before) return std::nullopt;
   return e;
@@ -73,7 +75,7 @@ std::optional<Expression> ModelReader::expression(const WrittenArgument& written
 std::optional<VectorExpression> ModelReader::vector_expression(const WrittenArgument& written) {
   if (written.damaged) return std::nullopt;
   const std::size_t before = diagnostics().error_count();
-  VectorExpression v = parse_vector_expression(written.value(), *written.name.source, diagnostics());
+  VectorExpression v = parse_vector_expression(written.value(), *written.name.source, diagnostics(), shapes_);
   for (std::size_t k = 0; k < 3 && diagnostics().error_count() == before; ++k) check_references(v.component[k]);
   if (diagnostics().error_count() > before) return std::nullopt;
   return v;

@@ -33,7 +33,8 @@ class ModelReader final : public ElementReader {
  public:
   // All must outlive this.
   ModelReader(Model& model, const Placement& placement, const ExaminedStatements& examined,
-              const DatasetWithRoutines& routines, const SourceText& source, Diagnostics& diagnostics);
+              const DatasetWithRoutines& routines, ProgramShapes& shapes, const SourceText& source,
+              Diagnostics& diagnostics);
   std::optional<MarkerId> marker(const WrittenInteger& id, std::string_view argument) override;
   std::optional<BodyId> body(std::string_view statement, const WrittenInteger& id) override;
   std::optional<ElementHandle> element(std::string_view statement, const WrittenInteger& id) override;
@@ -46,6 +47,11 @@ class ModelReader final : public ElementReader {
     // Marker k of its set is marker k + 1 of the model.
     const bool is_marker = placement_.set->kind().role == Kind::Role::marker;
     return is_marker ? &model_.markers[placement_.at() + 1] : nullptr;
+  }
+  Body* own_body() override {
+    // A body is the one that precedes what stands behind it.
+    const bool is_body = placement_.set->kind().role == Kind::Role::body;
+    return is_body ? &model_.bodies[static_cast<std::size_t>(placement_.preceding_body.index)] : nullptr;
   }
   std::string folder() const override { return std::filesystem::path(source().name()).parent_path().string(); }
 
@@ -67,6 +73,7 @@ class ModelReader final : public ElementReader {
   const Placement& placement_;
   const ExaminedStatements& examined_;
   const DatasetWithRoutines& routines_;
+  ProgramShapes& shapes_;
 };
 
 }  // namespace dynalin

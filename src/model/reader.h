@@ -12,6 +12,7 @@
 
 namespace dynalin {
 
+struct Body;
 struct Marker;
 
 class ElementReader {
@@ -45,6 +46,8 @@ class ElementReader {
   virtual void reads(std::string) {}
   // The marker that the statement defines, null where it defines none.
   virtual Marker* own_marker() { return nullptr; }
+  // The same of the body.
+  virtual Body* own_body() { return nullptr; }
   // Folder of the dataset, for files it names.
   virtual std::string folder() const = 0;
 

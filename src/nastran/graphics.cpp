@@ -62,7 +62,7 @@ class Drawer {
       grid.id = ids_.take(IdSpace::point, options_.graphics_grid_offset);
       grid.position = shape.global(v, poses_);
       // What is drawn on a flexible body stays where it is, as the LINEAR command leaves it.
-      if (body == ground_body || model_.body(body).listed.role == BodyRole::shaped)
+      if (body == ground_body || model_.body(body).nature->listed.role == BodyRole::shaped)
         grid.fixed = "123456";
       else
         riding_[static_cast<std::size_t>(body.index - 1)].push_back(grid.id);

@@ -56,7 +56,7 @@ Expression StateEquations::written(std::shared_ptr<const StateEquations> functio
 }
 
 std::shared_ptr<const StateEquations> StateEquations::of(const Expression& e) {
-  const auto& routines = e.program().routines;
+  const auto routines = e.program().routines();
   if (routines.size() != 1) return nullptr;
   const auto* carrier = dynamic_cast<const Carrier*>(routines.front().routine.get());
   return carrier ? carrier->functions() : nullptr;

@@ -26,9 +26,9 @@ System::~System() = default;
 
 void System::number_bodies() {
   layout_.bodies.reserve(model_->bodies.size());
-  for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label, b.listed);
+  for (const Body& b : model_->bodies) layout_.add_body(b.kind, b.label, b.nature->listed);
   for (const Body& b : model_->bodies) {
-    if (!b.modal.empty()) layout_.add_extra(b.label, b.modal_kind, b.modal);
+    if (!b.nature->modal.empty()) layout_.add_extra(b.label, b.nature->modal_kind, b.nature->modal);
   }
   for (const Body& b : model_->bodies) {
     if (!b.origin_at.valid()) continue;

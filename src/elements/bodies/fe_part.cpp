@@ -94,7 +94,8 @@ class FePartSet final : public TypedSet<FePart> {
     const BeamStates states(f.numbers.size(), f.plane);
     for (std::size_t k = 0; k < f.numbers.size(); ++k) {
       Body& body = model.bodies[static_cast<std::size_t>(f.nodes[k].index)];
-      body.listed = {BodyRole::nodal, f.numbers[k], {StateType::fe_part, states.of_pose(k), states.count()}};
+      body.nature = std::make_shared<const BodyNature>(
+          BodyNature{{BodyRole::nodal, f.numbers[k], {StateType::fe_part, states.of_pose(k), states.count()}}, {}, {}});
       body.pose = {f.origin + f.axes * place_of_node(f, k), f.axes * axes_of_node(f, k)};
       for (std::size_t side = 0; side < 2; ++side) {  // the element before it, the one behind
         if (side == 0 ? k == 0 : k == f.elements.size()) continue;

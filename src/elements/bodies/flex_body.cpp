@@ -92,8 +92,6 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       FlexBody& f = elements[k];
       check_velocity_axes(model, labels[k], f.vm, f.wm, diagnostics);
       Body& body = model.bodies[static_cast<std::size_t>(model.find_body("FLEX_BODY", labels[k].id)->index)];
-      body.listed.role = BodyRole::shaped;
-      body.listed.states.types = flexible_types;
       if (!f.data.empty()) f.flexible = of_matrices(f, labels[k].text(), model, diagnostics);
       if (!f.flexible) continue;
       body.pose = {f.origin, f.axes};
@@ -101,18 +99,23 @@ class FlexBodySet final : public TypedSet<FlexBody> {
       body.user_mass = I.mass;
       body.mass = I.mass / model.units.ucf;
       body.J_BC = (1 / model.units.ucf) * I.tensor;
-      body.velocity = {{f.vx, f.vy, f.vz}, {f.wx, f.wy, f.wz}, f.vm.valid() ? f.vm : global_frame, f.wm};
+      body.velocity = std::make_shared<const StatedVelocity>(
+          StatedVelocity{{f.vx, f.vy, f.vz}, {f.wx, f.wy, f.wz}, f.vm.valid() ? f.vm : global_frame, f.wm});
       for (const std::string& word : f.exact) {
         if (const auto at = find_keyword(word, pose_names)) body.exact[*at] = true;
       }
-      body.modal_kind = {flexible_types, ExtraRole::shape, modal_numbers, modal_starts};
+      BodyNature nature;
+      nature.listed.role = BodyRole::shaped;
+      nature.listed.states.types = flexible_types;
+      nature.modal_kind = {flexible_types, ExtraRole::shape, modal_numbers, modal_starts};
       for (Eigen::Index m = 0; m < f.flexible->modes(); ++m) {
         const std::int64_t number = f.flexible->number[static_cast<std::size_t>(m)];
-        body.modal.push_back({.name = fmt::format("Modal generalized coordinate Q{}", number),
-                              .initial = f.flexible->displacement(m),
-                              .speed = f.flexible->reach(m),
-                              .number = modal_numbers + static_cast<std::int32_t>(number)});
+        nature.modal.push_back({.name = fmt::format("Modal generalized coordinate Q{}", number),
+                                .initial = f.flexible->displacement(m),
+                                .speed = f.flexible->reach(m),
+                                .number = modal_numbers + static_cast<std::int32_t>(number)});
       }
+      body.nature = std::make_shared<const BodyNature>(std::move(nature));
       f.flexible->lacks_inertia = lacks_inertia(I);
       f.flexible->length = f.length > 0 ? f.length : extent_of(f.flexible->position);
       set_damping(f, labels[k], model, diagnostics);

@@ -14,7 +14,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <unordered_map>
 
 #include "elements/families/inertia.h"
 #include "elements/families/markers.h"
@@ -112,14 +111,10 @@ struct PartStatement {
   }};
 };
 
-// What stays of it until all markers are known, in little memory beside the body of the model.
+// What stays of it beside the body of the model until all markers are known.
 struct ReadPart {
-  bool ground = false;
-  std::array<bool, 6> exact{};
-  double mass = 0;
+  bool ground = false, has_inertia = false;
   MarkerId cm, im, vm, wm;
-  std::optional<std::array<double, 6>> inertia{};
-  Pose pose{};
 };
 
 std::optional<std::size_t> exact_coordinate(const std::string& word) {
@@ -162,40 +157,38 @@ class PartSet final : public TypedSet<ReadPart> {
     }
     check_exact(p.exact, reader);
     const auto axes = orientation({p.angles, p.z_point, p.x_point, "REULER", "ZG", "XG"}, p.origin, reader);
-    elements[k] = {p.ground, {}, p.mass, p.cm, p.im, p.vm, p.wm};
-    if (axes) elements[k].pose = {p.origin, *axes};
-    if (!p.ip.empty()) {
-      auto& inertia = elements[k].inertia.emplace();
-      std::copy_n(p.ip.begin(), std::min(p.ip.size(), inertia.size()), inertia.begin());
-    }
+    elements[k] = {p.ground, !p.ip.empty(), p.cm, p.im, p.vm, p.wm};
+    if (p.ground) return;
+    Body& body = *reader.own_body();
+    if (axes) body.pose = {p.origin, *axes};
+    body.user_mass = p.mass;
+    if (!p.ip.empty()) body.J_BC = written_inertia(p.ip);  // until the markers are known
     for (const std::string& word : p.exact) {
-      if (const auto coordinate = exact_coordinate(word)) elements[k].exact[*coordinate] = true;
+      if (const auto coordinate = exact_coordinate(word)) body.exact[*coordinate] = true;
     }
-    if (p.vx || p.vy || p.vz || p.wx || p.wy || p.wz)
-      velocities_.emplace(k, StatedVelocity{{p.vx, p.vy, p.vz}, {p.wx, p.wy, p.wz}});
+    if (p.vx || p.vy || p.vz || p.wx || p.wy || p.wz) {
+      body.velocity = std::make_shared<const StatedVelocity>(StatedVelocity{{p.vx, p.vy, p.vz},
+                                                                            {p.wx, p.wy, p.wz},
+                                                                            p.vm.valid() ? p.vm : global_frame,
+                                                                            p.wm.valid()   ? p.wm
+                                                                            : p.cm.valid() ? p.cm
+                                                                                           : global_frame});
+    }
   }
 
   std::vector<MarkerId> centres;  // CM of each
 
   void finish(Model& model, Diagnostics& diagnostics) override {
-    for (std::size_t k = 0; k < elements.size(); ++k) {
-      if (!elements[k].ground) body_of(model, k).pose = elements[k].pose;
-    }
     bring_origins_near(model);
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const ReadPart& p = elements[k];
       if (p.ground) continue;
       const BodyId id = *model.find_body("PART", labels[k].id);
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
-      body.user_mass = p.mass;
-      body.mass = p.mass / model.units.ucf;
-      body.exact = p.exact;
+      body.mass = body.user_mass / model.units.ucf;
       place_mass(p, labels[k], id, model, body, diagnostics);
       check_velocity_axes(model, labels[k], p.vm, p.wm, diagnostics);
-      if (const auto stated = velocities_.find(k); stated != velocities_.end()) body.velocity = stated->second;
-      body.velocity.cm_axes = p.vm.valid() ? p.vm : global_frame;
-      body.velocity.angular_axes = p.wm.valid() ? p.wm : p.cm.valid() ? p.cm : global_frame;
-      const bool turns = std::ranges::any_of(body.velocity.angular, [](const auto& w) { return w.has_value(); });
+      const bool turns = std::ranges::any_of(body.velocity->angular, [](const auto& w) { return w.has_value(); });
       if (!p.wm.valid() && !p.cm.valid() && turns) {
         diagnostics.error("missing-cm", labels[k].at,
                           fmt::format("{} states an angular velocity but neither WM nor CM", labels[k].text()));
@@ -204,7 +197,6 @@ class PartSet final : public TypedSet<ReadPart> {
     centres.clear();
     for (const ReadPart& p : elements) centres.push_back(p.cm);
     std::vector<ReadPart>().swap(elements);  // all that counts is in the model now
-    velocities_.clear();
   }
 
   std::unique_ptr<Kernel> make_kernel(const Model& model, Layout& layout) const override {
@@ -215,10 +207,6 @@ class PartSet final : public TypedSet<ReadPart> {
   // In lengths of the model: an origin farther from all markers than that costs digits that they have, its square those
   // of the inertia.
   static constexpr double far_origin = 1e3;
-
-  Body& body_of(Model& model, std::size_t k) const {
-    return model.bodies[static_cast<std::size_t>(model.find_body("PART", labels[k].id)->index)];
-  }
 
   // Takes a marker as the origin of each BCS that stands far from all that its part has. The differences between
   // markers stay as written.
@@ -235,10 +223,10 @@ class PartSet final : public TypedSet<ReadPart> {
     }
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const ReadPart& p = elements[k];
-      if (p.ground || p.exact != std::array<bool, 6>{}) continue;
+      if (p.ground) continue;
       const auto b = static_cast<std::size_t>(model.find_body("PART", labels[k].id)->index);
-      if (!first[b].valid() || nearest[b] <= limit) continue;
       Body& body = model.bodies[b];
+      if (body.exact != std::array<bool, 6>{} || !first[b].valid() || nearest[b] <= limit) continue;
       const bool own = p.cm.valid() && static_cast<std::size_t>(model.marker(p.cm).place.body.index) == b;
       body.origin_at = own ? p.cm : first[b];
       body.origin_offset = model.marker(body.origin_at).place.p_BM;
@@ -252,6 +240,14 @@ class PartSet final : public TypedSet<ReadPart> {
 
   static bool has_inertia(const PartStatement& p) {
     return std::any_of(p.ip.begin(), p.ip.end(), [](double x) { return x != 0.0; });
+  }
+
+  // Ixx, Iyy, Izz [, Ixy, Ixz, Iyz] about the origin of a marker and along its axes; more values are an error.
+  static Matrix3 written_inertia(const std::vector<double>& ip) {
+    std::array<double, 6> all{};
+    std::copy_n(ip.begin(), std::min(ip.size(), all.size()), all.begin());
+    const auto& [xx, yy, zz, xy, xz, yz] = all;
+    return {{xx, -xy, -xz}, {-xy, yy, -yz}, {-xz, -yz, zz}};
   }
 
   static void place_mass(const ReadPart& p, const ElementLabel& label, BodyId id, const Model& model, Body& body,
@@ -269,13 +265,12 @@ class PartSet final : public TypedSet<ReadPart> {
     const MarkerPlace& im = model.marker(p.im.valid() ? p.im : p.cm).place;
     body.p_BC = cm.p_BM;
     body.R_BI = im.R_BM;
-    if (!p.inertia) return;
-    const auto& [xx, yy, zz, xy, xz, yz] = *p.inertia;
-    const Matrix3 J_IM{{xx, -xy, -xz}, {-xy, yy, -yz}, {-xz, -yz, zz}};
+    if (!p.has_inertia) return;
+    const Matrix3 J_IM = body.J_BC;
     // From the origin of IM to the centre of mass, then from model units to dynamical ones.
     const Vector s = cm.p_BM - im.p_BM;
     const Matrix3 about_im = im.R_BM * J_IM * transpose(im.R_BM);
-    Matrix3 about_cm = about_im - p.mass * (Matrix3::diagonal(dot(s, s)) - outer(s, s));
+    Matrix3 about_cm = about_im - body.user_mass * (Matrix3::diagonal(dot(s, s)) - outer(s, s));
 
     Eigen::Matrix3d J;
     for (std::size_t r = 0; r < 3; ++r) {
@@ -286,7 +281,7 @@ class PartSet final : public TypedSet<ReadPart> {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(J);
     Eigen::Vector3d principal = solver.eigenvalues();
     // What cancels between the two points is zero: a thin rod has no inertia about its axis, a heavy point none at all.
-    const double roundings = 16 * std::numeric_limits<double>::epsilon() * p.mass * dot(s, s);
+    const double roundings = 16 * std::numeric_limits<double>::epsilon() * body.user_mass * dot(s, s);
     if ((principal.array().abs() < roundings).any()) {
       principal = (principal.array().abs() < roundings).select(0.0, principal);
       J = solver.eigenvectors() * principal.asDiagonal() * solver.eigenvectors().transpose();
@@ -311,8 +306,6 @@ class PartSet final : public TypedSet<ReadPart> {
                           "the largest is more than the sum of the others");
     }
   }
-
-  std::unordered_map<std::size_t, StatedVelocity> velocities_;  // of the few that state any
 };
 
 }  // namespace

@@ -84,14 +84,17 @@ class PointMassSet final : public TypedSet<PointMass> {
   }
 
   void finish(Model& model, Diagnostics& diagnostics) override {
+    BodyNature of_points;
+    of_points.listed.states.types = {StateType::point_mass, StateType::point_mass_relative,
+                                     StateType::point_mass_original};
+    of_points.listed.states.rates_behind = 3;
+    const auto nature = std::make_shared<const BodyNature>(std::move(of_points));
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const PointMass& p = elements[k];
       const BodyId id = *model.find_body("POINT_MASS", labels[k].id);
       Body& body = model.bodies[static_cast<std::size_t>(id.index)];
       body.pose = {p.origin, p.axes};
-      body.listed.states.types = {StateType::point_mass, StateType::point_mass_relative,
-                                  StateType::point_mass_original};
-      body.listed.states.rates_behind = 3;
+      body.nature = nature;
       body.user_mass = p.mass;
       body.mass = p.mass / model.units.ucf;
       if (p.cm.valid()) {
@@ -102,7 +105,9 @@ class PointMassSet final : public TypedSet<PointMass> {
         }
         body.p_BC = model.marker(p.cm).place.p_BM;
       }
-      body.velocity.of_cm = {p.vx, p.vy, p.vz};
+      if (p.vx || p.vy || p.vz)
+        body.velocity =
+            std::make_shared<const StatedVelocity>(StatedVelocity{{p.vx, p.vy, p.vz}, {}, global_frame, global_frame});
       for (const std::string& word : p.exact) body.exact[static_cast<std::size_t>(word[0] - 'X')] = true;
     }
   }

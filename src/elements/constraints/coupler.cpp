@@ -62,7 +62,7 @@ class CouplerSet final : public TypedSet<Coupler> {
       }
       return;
     }
-    if (calls && c.function.program().routines.empty()) {
+    if (calls && c.function.program().routines().empty()) {
       reader.error("unknown-word", reader.at("FUNCTION"),
                    fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression",
                                reader.label().text()));
@@ -109,7 +109,7 @@ class CouplerSet final : public TypedSet<Coupler> {
         const auto freedom = joint_freedom(model, labels[k], c.joints[j], wanted, diagnostics);
         if (freedom) relation.terms.push_back({*freedom, c.scales[j]});
       }
-      const auto& routines = c.function.program().routines;
+      const auto routines = c.function.program().routines();
       if (!routines.empty() && relation.terms.size() == c.joints.size()) {
         relation.function = of_displacements(model, relation, routines.front());
         relation.routine = routines.front().routine;

@@ -61,7 +61,7 @@ class GeneralConstraintKernel final : public Kernel, public WrenchSource {
   void bind(Binder& binder) override {
     for (Row& r : rows_) {
       r.function = BoundExpression(r.written, binder);
-      const Atom* atom = r.function.atom_on_curve();
+      const auto atom = r.function.atom_on_curve();
       if (!atom) continue;
       binder.problem("unfit-constraint", atom->at,
                      fmt::format("{} follows a marker along a curve, which no constraint can", atom->at.text()));

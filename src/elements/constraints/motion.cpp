@@ -183,7 +183,7 @@ class MotionKernel final : public Kernel,
         if (!e.icdisp) continue;
         s.constant = *e.icdisp, s.argument = course_starts.displacement;
       } else {
-        if (!e.function.program().routines.empty()) continue;
+        if (!e.function.program().routines().empty()) continue;
         s.constant = d.function.value(start, scratch);
       }
       out.push_back(std::move(s));

@@ -68,17 +68,17 @@ FlexibleBodyKernel::FlexibleBodyKernel(const std::vector<FlexibleBody>& all, con
               false};
     for (const MatrixXd& m : item.inertia.turning_by_mode) item.couples |= !m.isZero(0);
     for (const MatrixXd& m : item.inertia.tensor_by_modes) item.couples |= !m.isZero(0);
-    for (std::size_t k = 0; k < body.modal.size(); ++k) {
+    for (std::size_t k = 0; k < body.nature->modal.size(); ++k) {
       const auto at = static_cast<Index>(k);
       const bool place = f.flexible->holds_displacement[k], rate = f.flexible->holds_rate[k];
       if (!place && !rate) continue;
-      starts_.push_back({&body.label, body.modal[k].name,
+      starts_.push_back({&body.label, body.nature->modal[k].name,
                          place ? std::optional(f.flexible->displacement(at)) : std::nullopt,
-                         rate ? std::optional(f.flexible->rate(at)) : std::nullopt, body.modal_kind.starts});
+                         rate ? std::optional(f.flexible->rate(at)) : std::nullopt, body.nature->modal_kind.starts});
       start_places_.push_back({items_.size(), at});
     }
     const bool read = model.routine_data && model.routine_data->modes_read.contains(static_cast<int>(body.label.id));
-    for (std::size_t m = 0; read && m < body.modal.size(); ++m) {
+    for (std::size_t m = 0; read && m < body.nature->modal.size(); ++m) {
       for (const int derivative : {0, 1}) {
         readings_.push_back({f.body, m, derivative, item.first_column + static_cast<std::int32_t>(m),
                              item.first_extra + m, layout.add_algebraic(body.label)});

@@ -182,11 +182,12 @@ std::string FunctionEquationKernel::singular_group(const Motion& motion) const {
       const auto partials = p.function.partials(motion, scratch);
       const auto atoms = items_[p.of].function.atoms();
       for (std::size_t a = 0; a < atoms.size(); ++a) {
-        const DataSource reads = atoms[a].function->reads;
-        if (by_value && (atoms[a].function->family != AtomFamily::data || reads == DataSource::state_rate)) continue;
+        const Atom atom = atoms[a];
+        const DataSource reads = atom.function->reads;
+        if (by_value && (atom.function->family != AtomFamily::data || reads == DataSource::state_rate)) continue;
         if (reads == (by_value ? DataSource::state : DataSource::state_rate)) {
           const auto of = std::find_if(group.begin(), group.end(),
-                                       [&](std::size_t k) { return (*labels_)[k].id == atoms[a].argument[0]; });
+                                       [&](std::size_t k) { return (*labels_)[k].id == atom.argument[0]; });
           if (of != group.end()) jacobian(row, of - group.begin()) += p.factor * partials[a];
         } else if (by_value) {
           known = false;

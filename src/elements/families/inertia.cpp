@@ -11,7 +11,7 @@ InertiaKernel::InertiaKernel(const Model& model, const Layout& layout, BodyKind 
   masses_.reserve(count), bodies_.reserve(count);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (body.kind != kind || body.listed.role != BodyRole::rigid) continue;
+    if (body.kind != kind || body.nature->listed.role != BodyRole::rigid) continue;
     const Vector& c = body.p_BC;
     const Matrix3& J = body.J_BC;
     // About the mass centre; moving the point adds m c cᵀ.

@@ -70,7 +70,7 @@ Pose drawn_on_body(const Model& model, MarkerId id) {
   const MarkerPlace& m = model.marker(id).place;
   if (!m.shapes) return {m.p_BM, m.R_BM};
   const Body& body = model.body(m.body);
-  const auto shape = deformation<double>(*m.shapes, [&](std::size_t k) { return body.modal[k].initial; });
+  const auto shape = deformation<double>(*m.shapes, [&](std::size_t k) { return body.nature->modal[k].initial; });
   return {m.p_BM + shape.moved, shape.turned * m.R_BM};
 }
 

@@ -110,7 +110,7 @@ std::optional<double> ShapedBody::own_work(const Motion&, PartialBy by, const Ei
 }
 
 void ShapedBody::start_velocity(const Motion&, const Holds& holds, std::span<double> of_all) const {
-  if (holds(model_->body(of_.body).modal_kind.starts.velocity))
+  if (holds(model_->body(of_.body).nature->modal_kind.starts.velocity))
     std::ranges::copy(shape().rate, of_all.begin() + modes_);
 }
 

@@ -81,7 +81,7 @@ namespace {
 // A component written as 0 is none: whole sets of six are written by programs.
 bool is_nothing(const Expression& e) {
   ExpressionWorkspace<double> workspace;
-  return e.is_constant() && e.splines().empty() && e.program().routines.empty() &&
+  return e.is_constant() && e.splines().empty() && e.program().routines().empty() &&
          e.evaluate<double>({}, workspace) == 0;
 }
 

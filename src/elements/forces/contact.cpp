@@ -243,7 +243,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   // Null after an error.
   static std::shared_ptr<const Routine> routine_of(const Expression& function, std::string_view name,
                                                    ElementReader& reader) {
-    const auto& routines = function.program().routines;
+    const auto routines = function.program().routines();
     if (!routines.empty()) return routines.front().routine;
     reader.error("unknown-word", reader.at(name),
                  fmt::format("{} of {} is USER(…), the call of a compiled routine, and no expression", name,
@@ -298,7 +298,7 @@ class ContactSet final : public TypedSet<Contact>, public LinearRemarks {
   // Of all that the statement of the body stands for: nodes of an FE_PART have shares of its mass.
   static double mass_of(const Model& model, BodyId id) {
     const Body& one = model.body(id);
-    if (one.listed.role != BodyRole::nodal) return one.mass;
+    if (one.nature->listed.role != BodyRole::nodal) return one.mass;
     double sum = 0;
     for (const Body& b : model.bodies)
       if (b.label.statement == one.label.statement && b.label.id == one.label.id) sum += b.mass;

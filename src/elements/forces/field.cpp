@@ -75,7 +75,7 @@ struct Field {
 
   // Null after an error.
   std::shared_ptr<const Routine> routine(ElementReader& reader) const {
-    const auto& routines = function.program().routines;
+    const auto routines = function.program().routines();
     if (!routines.empty()) return routines.front().routine;
     reader.error("unknown-word", reader.at("FUNCTION"),
                  fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression",

@@ -225,7 +225,7 @@ class ModalForceSet final : public TypedSet<ModalForce> {
           fmt::format("{} takes CASE_INDEX and SCALE, FUNCTION, or FORCE, and not {} with {}", name, word, other));
       return;
     }
-    if ((f.scaled ? f.function : f.force).program().routines.empty()) {
+    if ((f.scaled ? f.function : f.force).program().routines().empty()) {
       reader.error("unknown-word", reader.at(word),
                    fmt::format("{} of {} is USER(…), the call of a compiled routine, and no expression", word, name));
     }

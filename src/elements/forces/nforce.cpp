@@ -231,7 +231,7 @@ class NforceSet final : public TypedSet<Nforce> {
     if (!read_arguments(n, reader)) return;
     const std::string name = reader.label().text();
     const bool calls = reader.given("FUNCTION");
-    if (calls && n.function.program().routines.empty()) {
+    if (calls && n.function.program().routines().empty()) {
       reader.error("unknown-word", reader.at("FUNCTION"),
                    fmt::format("FUNCTION of {} is USER(…), the call of a compiled routine, and no expression", name));
     }

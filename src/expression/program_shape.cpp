@@ -1,0 +1,68 @@
+#include "expression/program_shape.h"
+
+#include <functional>
+#include <initializer_list>
+
+namespace dynalin {
+
+namespace {
+
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x9E3779B97F4A7C15u;
+    value_ ^= value_ >> 32;
+  }
+  void add(std::int32_t a, std::int32_t b) {
+    add(std::uint64_t{static_cast<std::uint32_t>(a)} << 32 | static_cast<std::uint32_t>(b));
+  }
+  void add(const ProgramShape::Place& place) { add(std::uint64_t{place.offset} << 32 | place.length); }
+  std::size_t value() const { return static_cast<std::size_t>(value_); }
+
+ private:
+  std::uint64_t value_ = 0;
+};
+
+// Of what tells most expressions apart: switching nodes and functions follow from it but for rare cases.
+std::size_t hash_of(const ProgramShape& shape) {
+  Hash hash;
+  hash.add(shape.length);
+  for (const ExpressionNode& node : shape.nodes) {
+    hash.add(static_cast<std::uint64_t>(node.kind) << 16 | node.function);
+    hash.add(node.a, node.b);
+  }
+  for (const ProgramShape::Place& place : shape.places) hash.add(place);
+  for (const ProgramShape::ShapeOfAtom& atom : shape.atoms) {
+    hash.add(std::hash<const AtomFunction*>{}(atom.function));
+    hash.add(atom.at);
+  }
+  for (const ProgramShape::Place& place : shape.arguments) hash.add(place);
+  for (const Function* function : shape.functions) hash.add(std::hash<const Function*>{}(function));
+  return hash.value();
+}
+
+}  // namespace
+
+ProgramShape& ProgramShapes::blank() {
+  blank_.length = blank_.constants = 0;
+  blank_.nodes.clear();
+  blank_.operands.clear();
+  blank_.switching.clear();
+  blank_.functions.clear();
+  blank_.places.clear();
+  blank_.atoms.clear();
+  blank_.arguments.clear();
+  return blank_;
+}
+
+std::shared_ptr<const ProgramShape> ProgramShapes::shared(const ProgramShape& shape) {
+  const std::size_t hash = hash_of(shape);
+  const auto [first, last] = by_hash_.equal_range(hash);
+  for (auto known = first; known != last; ++known) {
+    if (*known->second == shape) return known->second;
+  }
+  if (by_hash_.size() == most) by_hash_.clear();
+  return by_hash_.emplace(hash, std::make_shared<const ProgramShape>(shape))->second;
+}
+
+}  // namespace dynalin
