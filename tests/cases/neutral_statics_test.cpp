@@ -1,5 +1,5 @@
 // What may stand anywhere stays where it is drawn: statics do not move along what nothing holds, however the model as
-// a whole is turned.
+// a whole is turned. Where a load drives such a motion, a refusal names what moves.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -54,6 +54,22 @@ TEST_F(NeutralStatics, leave_a_cylinder_that_may_roll_as_it_is_turned) {
     EXPECT_NEAR(seen[2], 0.15 - depth, 1e-9) << text(angles);
     for (std::size_t k = 3; k < 6; ++k) EXPECT_NEAR(seen[k], 0, 1e-8) << text(angles) << " " << k;
   }
+}
+
+// A load of 2 pulls the rope off a drum of radius 0.25, for ever.
+TEST_F(NeutralStatics, name_what_a_load_moves_that_nothing_holds) {
+  const RunResult r = run(
+      "Load on a drum\nUNITS/SYSTEM=MKS\nACCGRAV/KGRAV=-10\nPART/1, GROUND\nMARKER/1\nPART/3, MASS=50, CM=30, "
+      "IP=10,10,10\nMARKER/30\nMARKER/31, QP=0,0,-0.1\nMARKER/36, QP=-1,0,0.3, REULER=0,90D,0\nBUSHING/1, I=30, J=1, "
+      "K=1E6,2E6,3E6, KT=1E5,2E5,3E5\nPART/7, MASS=5, CM=70, IP=1,1,1, QG=-1,0,0.3\nMARKER/70, REULER=0,90D,0\n"
+      "JOINT/6, REVOLUTE, I=70, J=36\nPART/9, MASS=2, CM=90, IP=1,2,3, QG=0.01,0.02,-3\nMARKER/90\nMARKER/91, "
+      "QP=0,0,0.2\nBUSHING/2, I=91, J=31, K=0,0,0, KT=1,2,3\nVARIABLE/7, FUNCTION=2.7-0.25*AZ(70,36)\nSFORCE/1, "
+      "TRANSLATIONAL, I=91, J=31, FUNCTION=-1E4*(DM(91,31)-VARVAL(7))\nSFORCE/6, ROTATIONAL, I=70, J=36, "
+      "FUNCTION=0.25*SFORCE(1,0,1,0)\nEND\n",
+      "SIMULATE/STATICS\n");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, ::testing::HasSubstr("nothing holds PART/7, PART/9 against the moment (0, -4.99"));
+  EXPECT_THAT(r.err, ::testing::Not(::testing::HasSubstr("undetermined")));
 }
 
 }  // namespace
