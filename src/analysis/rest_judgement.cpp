@@ -23,19 +23,6 @@ bool row_counts(const StaticEquations& equations, Eigen::Index k) {
   return k < augmented.lambda(0) || k >= augmented.algebraic(0);  // constraints are met by assembly
 }
 
-// Columns with the given sizes and random signs, the same in every run.
-Eigen::MatrixXd random_signs(const Eigen::VectorXd& size, Eigen::Index columns) {
-  Eigen::MatrixXd x(size.size(), columns);
-  std::uint64_t bits = 0x9e3779b97f4a7c15u;
-  for (Eigen::Index c = 0; c < columns; ++c) {
-    for (Eigen::Index r = 0; r < size.size(); ++r) {
-      bits = bits * 6364136223846793005u + 1442695040888963407u;
-      x(r, c) = (bits >> 63) != 0 ? size(r) : -size(r);
-    }
-  }
-  return x;
-}
-
 class ScaledTangent {
  public:
   explicit ScaledTangent(const ColumnMatrix& J) : scales_(J), matrix_(scales_.of(J)) {}
@@ -136,6 +123,18 @@ Eigen::VectorXd rounding_of_deformation(const StaticEquations& equations) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd random_signs(const Eigen::VectorXd& size, Eigen::Index columns) {
+  Eigen::MatrixXd x(size.size(), columns);
+  std::uint64_t bits = 0x9e3779b97f4a7c15u;
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    for (Eigen::Index r = 0; r < size.size(); ++r) {
+      bits = bits * 6364136223846793005u + 1442695040888963407u;
+      x(r, c) = (bits >> 63) != 0 ? size(r) : -size(r);
+    }
+  }
+  return x;
+}
 
 bool balanced_to_rounding(const StaticEquations& equations) {
   if (!equations.residual().allFinite()) return false;

@@ -36,6 +36,9 @@ std::vector<bool> free_unknowns(StaticEquations&, const OperatingPoint&);
 // is indifferent moved may be determined all the same, together with others.
 Eigen::VectorXd undetermined_part(StaticEquations&, Eigen::VectorXd move);
 
+// Columns with the given sizes and random signs, the same in every run.
+Eigen::MatrixXd random_signs(const Eigen::VectorXd& size, Eigen::Index columns);
+
 // Every equation balances but for rounding: nothing can be said against the point.
 bool balanced_to_rounding(const StaticEquations&);
 

@@ -88,9 +88,9 @@ bool Descent::faded_where_it_is(const RestJudgement& j) const {
 
 // All of Newton's step but what nothing determines. Unknowns that rounding moves as far as the step does may not be
 // left where they are one by one: those that stiff elements couple them with would move alone.
-Eigen::VectorXd Descent::determined_step(const RestJudgement& j) const {
+Eigen::VectorXd Descent::determined_step(const RestJudgement& j) {
   if (std::ranges::find(j.indifferent, true) == j.indifferent.end()) return j.newton;
-  return without_undetermined(j.newton);
+  return held_part(without_undetermined(j.newton));
 }
 
 Eigen::VectorXd Descent::without_undetermined(Eigen::VectorXd step) const {
@@ -100,6 +100,48 @@ Eigen::VectorXd Descent::without_undetermined(Eigen::VectorXd step) const {
   step.head(augmented.lambda(0)) -= open.head(augmented.lambda(0));
   step.tail(states) -= open.tail(states);
   return step;
+}
+
+// Whether a force acts along a move, and not what rounding leaves of those that are balanced.
+bool Descent::is_driven(const Eigen::VectorXd& way, const Eigen::VectorXd& residual,
+                        const Eigen::VectorXd& rounding) const {
+  double work = 0, unseen = 0;
+  for (Eigen::Index k = 0; k < way.size(); ++k) {
+    if (k >= equations_.augmented().lambda(0) && k < equations_.augmented().state(0)) continue;
+    work += residual(k) * way(k);
+    unseen += rounding(k) * std::abs(way(k));
+  }
+  return std::abs(work) > residual_noise * unseen;
+}
+
+// Where a body may roll freely, rounding of forces over rounding of stiffness is a step of any size. It stays where it
+// is, as it does where the matrix is singular to the last digit.
+Eigen::VectorXd Descent::without_drift(const Eigen::VectorXd& step) {
+  constexpr double moved = 1e-9;  // by rounding, of the size of a coordinate
+  Eigen::MatrixXd by_rounding = random_signs(equations_.rounding_of_terms(), 1);
+  lu_.solve(by_rounding, SparseLu::Refined::no);
+  double farthest = 0;
+  for (std::int32_t k = 0; k < system_.layout().coordinate_count; ++k)
+    farthest = std::max(farthest, std::abs(by_rounding(k, 0)) / system_.coordinate_scale(k));
+  return farthest <= moved ? step : held_part(step);
+}
+
+// With a little of a typical stiffness P = (J + εD)⁻¹ J leaves of a step what is held by more.
+Eigen::VectorXd Descent::held_part(const Eigen::VectorXd& step) {
+  constexpr double little = 1e-10;
+  SparseLu held;
+  if (!equations_.factor(held, equations_.tangent(little, 0))) return step;
+  const ColumnMatrix J = equations_.tangent(0, 0);
+  const auto P = [&](const Eigen::VectorXd& move) {
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(move.size(), 1);
+    for_each_entry(J, [&](std::int32_t r, std::int32_t c, double v) { x(r, 0) += v * move(c); });
+    held.solve(x);
+    return Eigen::VectorXd(x.col(0));
+  };
+  // Twice: next to nothing is left of one in the other.
+  const Eigen::VectorXd once = P(step), kept = P(once), open = (step - once) - (once - kept);
+  if (!open.allFinite() || is_driven(open, equations_.residual(), equations_.rounding())) return step;
+  return kept;
 }
 
 // What nothing but rounding determines may be anywhere. It is where it is because nothing moved it, or because what
@@ -116,13 +158,7 @@ bool Descent::came_to_rest(const RestJudgement& j) {
     if (d.way.size() > 0) return d;
     const Move& move = moves_[n];
     d.way = undetermined_part(equations_, move.step);
-    double work = 0, unseen = 0;
-    for (Eigen::Index k = 0; k < d.way.size(); ++k) {
-      if (k >= equations_.augmented().lambda(0) && k < equations_.augmented().state(0)) continue;
-      work += move.residual(k) * d.way(k);
-      unseen += move.rounding(k) * std::abs(d.way(k));
-    }
-    d.driven = std::abs(work) > residual_noise * unseen;
+    d.driven = is_driven(d.way, move.residual, move.rounding);
     return d;
   };
   for (Eigen::Index k = 0; k < move_.size(); ++k) {

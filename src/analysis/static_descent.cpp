@@ -157,7 +157,7 @@ std::optional<Eigen::VectorXd> Descent::solve(double hold) {
   if (!step.allFinite()) return std::nullopt;
   // Newton's is the least: where only a combination of states is free, it keeps its value.
   if (held_states_ && hold == 0) return without_undetermined(step.col(0));
-  return Eigen::VectorXd(step.col(0));
+  return hold < no_hold ? without_drift(step.col(0)) : Eigen::VectorXd(step.col(0));
 }
 
 // Where it goes downhill, so that it does not climb to an unstable equilibrium; close to the solution rounding

@@ -48,8 +48,11 @@ class Descent {
   bool finish(OperatingPoint& op);
   bool finish_at(OperatingPoint& op, const FirstFreedoms& loose);
   bool rests_put_back(OperatingPoint& op);
-  Eigen::VectorXd determined_step(const RestJudgement&) const;
+  Eigen::VectorXd determined_step(const RestJudgement&);
   Eigen::VectorXd without_undetermined(Eigen::VectorXd step) const;
+  Eigen::VectorXd without_drift(const Eigen::VectorXd& step);
+  Eigen::VectorXd held_part(const Eigen::VectorXd& step);
+  bool is_driven(const Eigen::VectorXd& way, const Eigen::VectorXd& residual, const Eigen::VectorXd& rounding) const;
   bool came_to_rest(const RestJudgement&);
   bool faded_where_it_is(const RestJudgement&) const;
   void note_arrivals();

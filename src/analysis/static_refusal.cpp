@@ -9,6 +9,7 @@
 
 #include "analysis/part_names.h"
 #include "analysis/settled_reactions.h"
+#include "analysis/unheld_motion.h"
 #include "base/joined_sets.h"
 #include "mechanics/stiction_source.h"
 #include "system/sources.h"
@@ -119,6 +120,11 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
   if (no_value()) return f;
   if (const auto unheld = proof.empty() ? unheld_parts(equations, op) : proof; !unheld.empty()) {
     f.message += fmt::format(": {}", fmt::join(unheld, "; ")) + exhausted_friction(system, system.motion(op));
+    return f;
+  }
+  // What nothing opposes where it comes closest to rest may be held elsewhere, but no search came there.
+  if (const auto driven = unheld_everywhere(equations, {op}); !driven.empty()) {
+    f.message += fmt::format(": where it is closest to rest {}", fmt::join(driven, "; "));
     return f;
   }
   settle(equations, op);

@@ -27,6 +27,7 @@ constexpr double least_left = 1e-6;  // of the forces, that no motion opposes
 constexpr double least_turn = 1e-3;
 // Of what parts move one by one, that they move together: those that go against each other have no common force.
 constexpr double in_common = 1e-6;
+constexpr double least_part = 1e-2;    // of the way of the part that moves most, of those that count as moving with it
 constexpr double no_component = 1e-6;  // of a load
 
 // z = ρ − A x with the least |z|, of A = R J C: what of ρ the columns of A cannot make.
@@ -54,16 +55,18 @@ Eigen::VectorXd beyond_columns(StaticEquations& equations, const ColumnMatrix& A
 
 std::size_t index(std::int32_t k) { return static_cast<std::size_t>(k); }
 
-// Rows of z that hang together, and which of these sets the columns of A leave alone.
+// Rows of z that hang together, and which of these sets the columns of A leave alone. What takes no part, of `all`, is
+// no zero: a stiff element makes something of it.
 class Sets {
  public:
-  Sets(const ColumnMatrix& A, const Eigen::VectorXd& z, const Layout& layout) : sets_(index(A.rows)) {
+  Sets(const ColumnMatrix& A, const Eigen::VectorXd& z, const Eigen::VectorXd& all, const Layout& layout)
+      : sets_(index(A.rows)) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(A.columns), terms = sum;
     std::vector<std::int32_t> reader(index(A.columns), -1);
     for_each_entry(A, [&](std::int32_t r, std::int32_t c, double v) {
+      sum(c) += all(r) * v;
+      terms(c) += std::abs(all(r) * v);
       if (z(r) == 0 || v == 0) return;
-      sum(c) += z(r) * v;
-      terms(c) += std::abs(z(r) * v);
       std::int32_t& other = reader[index(c)];
       if (other < 0) other = r;
       sets_.join(index(r), index(other));
@@ -95,19 +98,36 @@ class Sets {
 
 // What moves along one set of rows, and the work that is done along it.
 struct Driven {
+  struct Part {
+    Eigen::Vector3d way = Eigen::Vector3d::Zero(), turn = way;
+  };
   double work = 0;
-  Eigen::Vector3d way = Eigen::Vector3d::Zero(), turn = way;  // sums over the parts,
-  double ways = 0, turns = 0;                                 // and over what each of their components is
-  std::vector<std::size_t> bodies;
+  std::map<std::size_t, Part> parts;
 
   std::optional<UnheldMotion> load(const StaticEquations& equations) const {
-    const double length = equations.system().length(), count = static_cast<double>(bodies.size());
+    const double length = equations.system().length();
+    Part sum;
+    double ways = 0, turns = 0, farthest = 0, most_turned = 0;  // sums over what each component is
+    for (const auto& [b, p] : parts) {
+      sum.way += p.way, sum.turn += p.turn;
+      ways += p.way.lpNorm<1>(), turns += p.turn.lpNorm<1>();
+      farthest = std::max(farthest, p.way.norm() + length * p.turn.norm());
+      most_turned = std::max(most_turned, p.turn.norm());
+    }
     const bool turning = turns * length > least_turn * ways;
-    const Eigen::Vector3d along = (turning ? turn : way) / count;
+    // Those that hardly move along do so at one point and not at another.
+    UnheldMotion motion{{}, turning, {}};
+    double count = 0;
+    for (const auto& [b, p] : parts) {
+      if (p.way.norm() + length * p.turn.norm() > least_part * farthest) motion.bodies.push_back(b);
+      if (turning ? p.turn.norm() > least_part * most_turned : p.way.norm() > least_part * farthest) ++count;
+    }
+    const Eigen::Vector3d along = (turning ? sum.turn : sum.way) / count;
     if (!(along.norm() * count > in_common * (turning ? turns : ways))) return std::nullopt;
     const Eigen::Vector3d f = work / along.squaredNorm() * along;
     if (!(f.norm() / (turning ? length : 1.0) > force_balance * equations.force_scale())) return std::nullopt;
-    return UnheldMotion{bodies, turning, {f(0), f(1), f(2)}};
+    motion.load = {f(0), f(1), f(2)};
+    return motion;
   }
 };
 
@@ -129,11 +149,12 @@ std::vector<UnheldMotion> unheld_motions(StaticEquations& equations, const Opera
   Eigen::VectorXd z = beyond_columns(equations, A, rho);
   const double size = z.cwiseAbs().maxCoeff();
   if (!z.allFinite() || !(size > least_left * rho.cwiseAbs().maxCoeff())) return {};
+  const Eigen::VectorXd all = z;
   for (double& v : z) {
     if (std::abs(v) < negligible * size) v = 0;
   }
   const Layout& layout = equations.system().layout();
-  Sets sets(A, z, layout);
+  Sets sets(A, z, all, layout);
   std::map<std::size_t, Driven> motions;
   for (std::size_t b = 1; b < layout.bodies.size(); ++b) {
     const BodyBlock& block = layout.bodies[b];
@@ -143,10 +164,9 @@ std::vector<UnheldMotion> unheld_motions(StaticEquations& equations, const Opera
       if (!set) continue;
       Driven& m = motions[*set];
       const double y = z(at) * scales.row(at);
-      (k < 3 ? m.way(k) : m.turn(k - 3)) += y;
-      (k < 3 ? m.ways : m.turns) += std::abs(y);
+      Driven::Part& part = m.parts[b];
+      (k < 3 ? part.way(k) : part.turn(k - 3)) += y;
       m.work -= y * r(at);
-      if (m.bodies.empty() || m.bodies.back() != b) m.bodies.push_back(b);
     }
   }
   std::vector<UnheldMotion> list;

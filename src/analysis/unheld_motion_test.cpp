@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <sstream>
 
 #include "analysis/static_refusal.h"
 #include "analysis/statics_test_support.h"
@@ -75,6 +76,28 @@ TEST(UnheldMotion, a_thread_too_long_for_its_turns_to_show_falls) {
   EXPECT_NEAR(slide.load.y, -20, 1e-9);
   EXPECT_TRUE(screw.turning);
   EXPECT_NEAR(std::abs(screw.load.y), 20 / (2 * std::numbers::pi), 1e-9);
+}
+
+// A load of 2 hangs on a drum of radius 0.25 that nothing brakes, on a trolley that its springs hold. A little of the
+// motion reaches the trolley; it does not count as moving with them, and what is made of it opposes nothing.
+TEST(UnheldMotion, a_load_on_a_drum_pulls_rope_off_it) {
+  for (const double stiffness : {1e3, 1e6, 1e9}) {
+    std::ostringstream model;
+    model << gravity << "MARKER/2, PART=1\nPART/3, MASS=50, CM=30, IP=10,10,10\nMARKER/30\nMARKER/31, QP=0,-0.1,0\n"
+          << "MARKER/36, QP=-1,0.3,0\nBUSHING/1, I=30, J=2, K=" << stiffness << "," << 2 * stiffness << ","
+          << 3 * stiffness << ", KT=1E5,2E5,3E5\nPART/7, MASS=5, CM=70, IP=1,1,1, QG=-1,0.3,0\nMARKER/70\n"
+          << "JOINT/6, REVOLUTE, I=70, J=36\nPART/9, MASS=2, CM=90, IP=1,2,3, QG=0.01,-3,0.02\nMARKER/90\n"
+          << "MARKER/91, QP=0,0.2,0\nBUSHING/2, I=91, J=31, K=0,0,0, KT=1,2,3\n"
+          << "VARIABLE/7, FUNCTION=2.7-0.25*AZ(70,36)\n"
+          << "SFORCE/1, TRANSLATIONAL, I=91, J=31, FUNCTION=-1E4*(DM(91,31)-VARVAL(7))\n"
+          << "SFORCE/6, ROTATIONAL, I=70, J=36, FUNCTION=0.25*SFORCE(1,0,1,0)\n";
+    Search s(model.str());
+    const auto motions = unheld_motions(s.equations, s.op);
+    ASSERT_EQ(motions.size(), 1u) << stiffness;
+    EXPECT_EQ(motions[0].bodies, (std::vector<std::size_t>{2, 3})) << stiffness;
+    EXPECT_TRUE(motions[0].turning);
+    EXPECT_NEAR(motions[0].load.z, 0.25 * 20, 1e-3) << stiffness;
+  }
 }
 
 // A pendulum is held wherever it is not at rest, and what hangs on a spring is.

@@ -150,7 +150,7 @@ void Equations::apply_at(BodyId body, const Vector& arm, const Vector& force, co
     const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
     const double one = arm[next] * force[last], other = arm[last] * force[next];
     add_residual(row + 3, -(one - other + torque[k]),
-                 std::abs(one) + std::abs(other) + (torque[k] == 0 ? 0 : std::max(std::abs(torque[k]), cancelled)));
+                 std::abs(one) + std::abs(other) + std::max(std::abs(torque[k]), cancelled));
   }
 }
 
