@@ -551,8 +551,8 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
       // implicit_diff_test
       "unfit-condition",
       // dataset/matrix_file_test
-      "matrix-complex", "matrix-count", "matrix-entry", "matrix-file-type", "matrix-header", "matrix-implied-point",
-      "matrix-missing", "matrix-number", "matrix-truncated",
+      "matrix-complex", "matrix-count", "matrix-empty-column", "matrix-entry", "matrix-file-type", "matrix-header",
+      "matrix-implied-point", "matrix-missing", "matrix-number", "matrix-scale-factor", "matrix-truncated",
       // nastran/configuration_test, nastran/deck_text_test
       "directive-syntax", "directive-value", "dropped-entries", "ignored-directive", "missing-directive",
       "unknown-channel", "unknown-directive",
