@@ -108,7 +108,9 @@ void DatasetEditor::redefine(const Statement& command) {
   }
   Statement* target = find(command.name, finder_.identity_of(command));
   if (!target && without_id) {
-    out_->statements.push_back(command);
+    Statement& added = out_->statements.emplace_back(command);
+    std::erase_if(added.arguments,
+                  [&](const WrittenArgument& w) { return !w.has_value && is_list(w, kind_of(command)); });
     place_.emplace(key(command.name, 0), out_->statements.size() - 1);
     return;
   }
