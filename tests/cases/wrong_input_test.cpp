@@ -385,6 +385,8 @@ const std::vector<Wrong>& table() {
     {Place::added, "MARKER/9, PART=2, REULER=0,180D,0\nSFORCE/1, ROTATIONAL, I=9, J=1, FUNCTION=1", {"skew-axes 11:1", "accelerating-point 5:1"}},
     {Place::added, "PART/9, MASS=2D, CM=90, IP=1,1,1\nMARKER/90, PART=9", {"degrees-without-angle 10:14"}},
     {Place::added, "MARKER/9, PART=2, QP=1,90D,0", {"degrees-without-angle 10:24"}},
+    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=30D, DEN=1,2D\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"degrees-without-angle 10:30", "degrees-without-angle 10:41"}},
+    {Place::added, "MATRIX/9, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=30D\nARRAY/9, IC, NUMBERS=30D\nSPLINE/9, X=1D,2D,3D,4D, Y=1D,2D,3D,4D\nVARIABLE/9, IC=30D, FUNCTION=1", {}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, FUNCTION=USER(1)\nMATRIX/9, FULL=RORDER, ROWS=1, COLUMNS=3, VALUES=1,2,3", {"missing-routine 10:35"}},
     {Place::command, "LINEAR/STATEMAT, FILE=model.adm", {"file-in-use 3:23"}},
     {Place::command, "LINEAR/STATEMAT, FILE=model.msg", {"file-in-use 3:23"}},
