@@ -79,8 +79,10 @@ void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, c
     const auto [other, fresh] = known.emplace(to_output ? standard_output : d->place(), &file);
     if (fresh) continue;
     const PlannedFile& earlier = *other->second;
-    const std::string text =
-        fmt::format("{} and {} are one file, {}", earlier.what, file.what, to_output ? "standard output" : file.path);
+    const bool same = file.what == earlier.what;
+    const std::string path = to_output ? "standard output" : file.path;
+    const std::string text = same ? fmt::format("{} would be written twice, to {}", file.what, path)
+                                  : fmt::format("{} and {} are one file, {}", earlier.what, file.what, path);
     // Commands one after the other: standard output has both; a file has the later point, or the later result.
     const bool of_commands = earlier.at.source && file.at.source;
     if (of_commands && (to_output || earlier.at_once == file.at_once)) {
@@ -89,7 +91,6 @@ void check_outputs(const std::deque<Job>& jobs, const SessionOptions& options, c
       if (lost) warned_of = file.at.offset;
       continue;
     }
-    const bool same = file.what == earlier.what;
     diagnostics.error("file-in-use", earlier.at.source ? earlier.at : file.at, text,
                       same ? "OUTPUT_PREFIX gives the files of a further model names of their own" : "");
   }

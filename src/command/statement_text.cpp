@@ -28,14 +28,17 @@ std::string argument_text(const WrittenArgument& w) {
   return text;
 }
 
-std::string statement_list(const Statement& s) {
+std::string statement_list(const Statement& s, const Unstated& unstated) {
   const std::string name = s.id ? fmt::format("{}/{}", s.name, *s.id) : std::string(s.name);
   std::string text = fmt::format("\nCurrent {} data are:\n", name);
   std::size_t width = 0;
   for (const WrittenArgument& w : s.arguments) width = std::max<std::size_t>(width, w.name.length);
+  for (const auto& [argument, value] : unstated.values) width = std::max(width, argument.size());
   for (const WrittenArgument& w : s.arguments)
     text += w.has_value ? fmt::format("   {:<{}} = {}\n", w.name.text(), width, argument_text(w))
                         : fmt::format("   {}\n", w.name.text());
+  for (const auto& [argument, value] : unstated.values) text += fmt::format("   {:<{}} = {}\n", argument, width, value);
+  for (const std::string& sentence : unstated.sentences) text += fmt::format("   {}\n", sentence);
   if (!s.view_name.empty()) text += fmt::format("   its name is {}\n", s.view_name);
   if (s.inactive) text += "   it is not active\n";
   return text + "\n";

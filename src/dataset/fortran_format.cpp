@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t most_items = 10'000;  // stops repetitions of repetitions
 constexpr std::size_t widest_field = 10'000;
 constexpr int deepest_group = 20;
+constexpr std::size_t largest_power = 99;
 
 class FormatParser {
  public:
@@ -18,14 +19,11 @@ class FormatParser {
 
   std::optional<FortranFormat> parse() {
     if (!take('(') || !group(0)) return std::nullopt;
-    const bool numbers = std::any_of(format_.items.begin(), format_.items.end(),
-                                     [](const auto& i) { return i.kind == FortranItem::Kind::number; });
-    if (!numbers) return std::nullopt;
+    const auto is_number = [](const FortranItem& i) { return i.is_number(); };
+    if (std::ranges::none_of(format_.items, is_number)) return std::nullopt;
     // A last group without numbers would never end.
     const auto again = format_.items.begin() + static_cast<std::ptrdiff_t>(format_.again);
-    const bool goes_on =
-        std::any_of(again, format_.items.end(), [](const auto& i) { return i.kind == FortranItem::Kind::number; });
-    if (!goes_on) format_.again = 0;
+    if (std::none_of(again, format_.items.end(), is_number)) format_.again = 0;
     return format_;
   }
 
@@ -61,12 +59,13 @@ class FormatParser {
   }
 
   bool item(int depth) {
-    if (take('-')) return take_count() && take('P');
+    const bool negative = take('-'), sign = negative || take('+');
     const std::optional<std::size_t> count = take_count();
     const std::size_t repeat = count.value_or(1);
-    if (count && take('P')) return true;  // the scale factor does not change numbers with an exponent
-    if (take('/')) return append(repeat, {FortranItem::Kind::next_record, 0, 0});
-    if (take('X')) return append(1, {FortranItem::Kind::skip, repeat, 0});
+    if (count && take('P')) return scale(*count, negative);
+    if (sign) return false;
+    if (take('/')) return append(repeat, {.kind = FortranItem::Kind::next_record});
+    if (take('X')) return append(1, {.kind = FortranItem::Kind::skip, .width = repeat});
     if (take('(')) {
       const std::size_t begin = format_.items.size();
       if (depth == 0) format_.again = begin;
@@ -75,9 +74,15 @@ class FormatParser {
     return number(repeat);
   }
 
+  bool scale(std::size_t power, bool negative) {
+    if (power > largest_power) return false;
+    const int p = static_cast<int>(power);
+    return append(1, {.kind = FortranItem::Kind::scale, .power = negative ? -p : p});
+  }
+
   bool number(std::size_t repeat) {
-    const bool whole = take('I');
-    if (!whole && !take('F') && !take('E') && !take('D') && !take('G')) return false;
+    const bool whole = take('I'), fixed = !whole && take('F');
+    if (!whole && !fixed && !take('E') && !take('D') && !take('G')) return false;
     const std::optional<std::size_t> width = take_count();
     if (!width || *width == 0 || *width > widest_field) return false;
     std::size_t decimals = 0;
@@ -87,7 +92,8 @@ class FormatParser {
       decimals = whole ? 0 : *digits;
     }
     if (take('E') && !take_count()) return false;  // width of the exponent: E25.17E3
-    return append(repeat, {FortranItem::Kind::number, *width, decimals});
+    const auto kind = whole ? FortranItem::Kind::whole_number : FortranItem::Kind::number;
+    return append(repeat, {.kind = kind, .width = *width, .decimals = decimals, .fixed = fixed});
   }
 
   bool append(std::size_t repeat, const FortranItem& item) {

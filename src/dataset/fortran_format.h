@@ -9,14 +9,19 @@
 namespace dynalin {
 
 struct FortranItem {
-  enum class Kind { number, skip, next_record };
+  enum class Kind { number, whole_number, skip, next_record, scale };
   Kind kind = Kind::number;
   std::size_t width = 0;
-  std::size_t decimals = 0;  // digits behind a point that is not written; 0 for whole numbers
+  std::size_t decimals = 0;  // digits behind a point that is not written
+  int power = 0;             // of a scale factor, 2P: numbers without exponent are 10^power times what they stand for
+  bool fixed = false;        // F, whose numbers are written without exponents
+
+  bool is_number() const { return kind == Kind::number || kind == Kind::whole_number; }
 };
 
-// Repetitions are written out. When values remain behind the last item, a new record begins and the
-// format goes on at item `again`, the start of the last group in parentheses.
+// Repetitions are written out. When values remain behind the last item, a new record begins and the format goes on at
+// item `again`, the start of the last group in parentheses. A scale factor counts from where it stands until the next
+// one does, across records.
 struct FortranFormat {
   std::vector<FortranItem> items;
   std::size_t again = 0;

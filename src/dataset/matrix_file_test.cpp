@@ -216,6 +216,60 @@ TEST(adamsmat, implies_points_in_columns) {
   EXPECT_EQ(free.found(), Texts{"5:1 matrix-implied-point"});
 }
 
+std::string by_rows(const std::string& format, const std::string& lines) {
+  return "ADAMSMAT\n1\nA\nA FULL RORDER 2 2 4 (" + format + ")\n" + lines;
+}
+
+// Behind kP a number without exponent is 10^k times what it stands for.
+TEST(scale_factor, divides_numbers_without_exponent) {
+  const std::string lines = "-136.00-200.00\n 250.00-125.00\n";
+  const Values hundredth = {-1.36, 2.5, -2, -1.25};
+  for (const char* format : {"2P2F7.2", "2P,2F7.2", "+2P,2F7.2", "2(2PF7.2)", "2P,2(F7.2)", " 2 P 2 F 7.2 "})
+    EXPECT_EQ(values(by_rows(format, lines), "A"), hundredth) << format;
+  EXPECT_EQ(values(by_rows("-2P,2F7.2", lines), "A"), (Values{-13600, 25000, -20000, -12500}));
+  EXPECT_EQ(values(by_rows("0P,2F7.2", lines), "A"), (Values{-136, 250, -200, -125}));
+  // Until the next one, across records.
+  EXPECT_EQ(values(by_rows("F7.2,2PF7.2", lines), "A"), (Values{-136, 2.5, -2, -1.25}));
+  EXPECT_EQ(values(by_rows("2PF7.2,0PF7.2", lines), "A"), (Values{-1.36, 2.5, -200, -125}));
+  // Blanks between the numbers leave them in their columns.
+  EXPECT_EQ(values(by_rows("2P,3F8.2", " -136.00 -200.00  250.00\n -125.00\n"), "A"), hundredth);
+  EXPECT_EQ(values(by_rows("2P,3F8.2", "-136.00 -200.00 250.00  \n-125.00 \n"), "A"), hundredth);
+}
+
+TEST(scale_factor, leaves_whole_numbers_and_exponents_as_they_are) {
+  EXPECT_EQ(values(by_rows("2P,2F9.2", "-1.36E+00-2.00D+00\n 2.50+000-1.25E+00\n"), "A"),
+            (Values{-1.36, 2.5, -2, -1.25}));
+  EXPECT_EQ(values("ADAMSMAT\n1\nS\nS SPARSE 2 2 1 (2P,2I4,F8.2)\n   1   2  150.00\n", "S"), (Values{0, 0, 1.5, 0}));
+}
+
+TEST(scale_factor, is_remarked_where_fortran_writes_an_exponent) {
+  File file(by_rows("1P2E8.2", "  0.0000  1.5E+0\n  1.5000  1.5E+0\n"));
+  EXPECT_EQ(file.read("A")->values, (Values{0, 0.15, 1.5, 1.5}));
+  EXPECT_EQ(file.found(), Texts{"6:3 matrix-scale-factor"});
+}
+
+TEST(scale_factor, counts_in_columns_only) {
+  File file(by_rows("2P,2F8.2", "1.5E0 2.5\n3.5 4.5\n"));
+  EXPECT_EQ(file.read("A")->values, (Values{1.5, 3.5, 2.5, 4.5}));
+  EXPECT_EQ(file.found(), Texts{"5:7 matrix-scale-factor"});
+}
+
+TEST(columns, without_a_number_are_zero) {
+  File file(by_rows("2F7.2", "       -200.00\n 250.00       \n"));
+  EXPECT_EQ(file.read("A")->values, (Values{0, 250, -200, 0}));
+  EXPECT_EQ(file.found(), Texts{"5:1 matrix-empty-column"});
+  // A line that ends before its columns do lacks a number.
+  File cut(by_rows("2F7.2", "       -200.00\n 250.00\n"));
+  EXPECT_FALSE(cut.read("A"));
+  EXPECT_EQ(cut.found(), Texts{"6:8 matrix-truncated"});
+}
+
+TEST(exponents, need_no_letter) {
+  const Values expected = {1.36, -2.5e10, -0.2, 1e-100};
+  EXPECT_EQ(values(by_rows("1P2E10.3", " 1.360+00 -2.000-01 \n-2.500+10 1.000-100 \n"), "A"), expected);
+  EXPECT_EQ(values(by_rows("1P2E10.3", "1.360+00 -2.000-01\n-2.500+10 1.000-100\n"), "A"), expected);
+}
+
 TEST(matrix_file, of_an_unknown_type_is_refused) {
   for (const char* text : {"", "matrixx\n", "1 2 3\n", "HELLO"}) {
     File file(text);
@@ -231,8 +285,9 @@ TEST(matrix_file, reports_numbers_that_are_too_large) {
 }
 
 TEST(fortran_format, writes_out_repetitions) {
-  EXPECT_EQ(parse_fortran_format("(3(1PE25.17))")->items.size(), 3u);
-  EXPECT_EQ(parse_fortran_format("(1P3E25.17)")->items.size(), 3u);
+  EXPECT_EQ(parse_fortran_format("(3(1PE25.17))")->items.size(), 6u);
+  EXPECT_EQ(parse_fortran_format("(1P3E25.17)")->items.size(), 4u);
+  EXPECT_EQ(parse_fortran_format("(-2P,F8.2)")->items[0].power, -2);
   EXPECT_EQ(parse_fortran_format("( 1I8, 1E14.6 )")->items[1].width, 14u);
   EXPECT_EQ(parse_fortran_format("(2(I4,2(F5.1,2X)),/,D9.2)")->items.size(), 12u);
 }
@@ -243,8 +298,9 @@ TEST(fortran_format, goes_on_with_its_last_group) {
 }
 
 TEST(fortran_format, refuses_what_it_does_not_know) {
-  for (const char* text : {"", "(", "()", "(A10)", "(3X)", "(3F)", "(F0.3)", "3F8.2", "(9999(9999(F8.2)))",
-                           "((((((((((((((((((((((((F8.2))))))))))))))))))))))))", "(99999999999F8.2)"}) {
+  for (const char* text :
+       {"", "(", "()", "(A10)", "(3X)", "(3F)", "(F0.3)", "3F8.2", "(-2F8.2)", "(200PF8.2)", "(9999(9999(F8.2)))",
+        "((((((((((((((((((((((((F8.2))))))))))))))))))))))))", "(99999999999F8.2)"}) {
     EXPECT_FALSE(parse_fortran_format(text)) << text;
   }
 }

@@ -108,7 +108,9 @@ void DatasetEditor::redefine(const Statement& command) {
   }
   Statement* target = find(command.name, finder_.identity_of(command));
   if (!target && without_id) {
-    out_->statements.push_back(command);
+    Statement& added = out_->statements.emplace_back(command);
+    std::erase_if(added.arguments,
+                  [&](const WrittenArgument& w) { return !w.has_value && is_list(w, kind_of(command)); });
     place_.emplace(key(command.name, 0), out_->statements.size() - 1);
     return;
   }
@@ -127,12 +129,21 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
   }
   const Kind* kind = kind_of(target);
   const Kind* const before_command = kind;
+  const auto is_type = [&](const WrittenArgument& w) { return !w.has_value && is_variant(w, variants, kind); };
+  const auto type = std::ranges::find_if(command.arguments, is_type);
+  const auto again =
+      type == command.arguments.end() ? type : std::find_if(std::next(type), command.arguments.end(), is_type);
+  if (again != command.arguments.end()) {
+    const auto name = [&](const WrittenArgument& w) { return variants[*find_keyword(w.name.text(), variants)]; };
+    diagnostics_.error("duplicate-variant", again->name,
+                       fmt::format("{} is both {} and {}", command.at.text(), name(*type), name(*again)));
+    return;
+  }
   // Another type first: it decides what the names of the others mean.
-  for (const WrittenArgument& w : command.arguments) {
-    if (w.has_value || !is_variant(w, variants, kind)) continue;
+  if (type != command.arguments.end()) {
     std::erase_if(target.arguments,
                   [&](const WrittenArgument& old) { return !old.has_value && is_variant(old, variants, kind); });
-    target.arguments.push_back(w);
+    target.arguments.push_back(*type);
     kind = kind_of(target);
   }
   if (kind != before_command && kind) {

@@ -1,8 +1,10 @@
 // What edits leave of the arguments of a statement, and what they say of the start.
 #include "model/dataset_edits.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <map>
 #include <sstream>
 
 #include "elements/catalogue.h"
@@ -87,6 +89,25 @@ TEST(DatasetEdits, take_what_another_argument_excludes) {
     const Edited e = edit(before, element + ", " + by);
     EXPECT_EQ(e.arguments, after) << before << " by " << by;
     EXPECT_EQ(e.problems, "");
+  }
+}
+
+TEST(DatasetEdits, change_no_element_to_two_types) {
+  std::map<std::string_view, std::vector<std::string_view>> types;
+  for (const Kind* kind : catalogue()) {
+    if (!kind->variant.empty()) types[kind->statement].push_back(kind->variant);
+  }
+  std::erase_if(types, [](const auto& of) { return of.second.size() < 2; });
+  EXPECT_TRUE(types.contains("JOINT") && types.contains("JPRIM") && types.contains("SFORCE"));
+  for (const auto& [statement, names] : types) {
+    for (std::size_t k = 1; k < names.size(); ++k) {
+      const std::string element = fmt::format("{}/1", statement);
+      const Edited e = edit(fmt::format("{}, {}, I=1", element, names[0]),
+                            fmt::format("{}, {}, I=2, {}", element, names[k], names[0]));
+      EXPECT_THAT(e.problems,
+                  HasSubstr(fmt::format("{} is both {} and {} [duplicate-variant]", element, names[k], names[0])));
+      EXPECT_EQ(e.arguments, std::string(names[0]) + " I=1");
+    }
   }
 }
 

@@ -43,7 +43,8 @@ const Kind* KindFinder::find(const Statement& s, std::size_t& variant_argument, 
   if (it == kinds_.end()) {
     std::string instead;
     if (s.name == "UCON") instead = "GCON states a constraint by an expression";
-    if (s.name == "TIRE" || s.name == "SURFACE") instead = "a BUSHING or SFORCE with the stiffness of the tire";
+    if (s.name == "TIRE") instead = "a BUSHING or SFORCE with the stiffness of the tire";
+    if (s.name == "SURFACE") instead = "GCON keeps a marker on a surface that an expression describes";
     diagnostics.error("statement-not-built", s.keyword(), fmt::format("{} is not available yet", s.name),
                       std::move(instead));
     return nullptr;

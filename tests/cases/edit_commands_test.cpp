@@ -269,6 +269,24 @@ TEST_F(EditCommands, an_id_of_what_exists_once_means_nothing) {
   }
 }
 
+TEST_F(EditCommands, list_says_what_holds_without_being_stated) {
+  const std::string model =
+      "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "MARKER/21, PART=1, QP=1,0,0\nJOINT/1, REVOLUTE, I=20, J=1\n";
+  const auto listed = [&](const std::string& more, const std::string& command) {
+    const RunResult r = run(model + more + "END\n", command + "\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.out;
+  };
+  EXPECT_THAT(listed("", "ACCGRAV/LIST"),
+              HasSubstr("\nCurrent ACCGRAV data are:\n   IGRAV = 0\n   JGRAV = 0\n   KGRAV = 0\n"));
+  EXPECT_THAT(listed("ACCGRAV/JG=-9.8\n", "ACCGRAV/LIST"),
+              HasSubstr("data are:\n   JG    = -9.8\n   IGRAV = 0\n   KGRAV = 0\n"));
+  EXPECT_THAT(listed("", "ACCGRAV/KGRAV=3, LIST"), HasSubstr("   KGRAV = 3\n   IGRAV = 0\n   JGRAV = 0\n"));
+  EXPECT_THAT(listed("", "MARKER/20, LIST"), HasSubstr("Current MARKER/20 data are:\n   it belongs to PART/2\n"));
+  EXPECT_THAT(listed("", "MARKER/21, LIST"), HasSubstr("data are:\n   PART = 1\n   QP   = 1,0,0\n\n"));
+}
+
 TEST_F(EditCommands, what_goes_with_the_type_before_is_named) {
   const RunResult r = run(oscillator + "END\n", "SPRINGDAMPER/1, ROTATIONAL\nLINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 0) << r.err;

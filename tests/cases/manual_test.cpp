@@ -1,11 +1,14 @@
 // The manual says what the program does: pages are compared with the tables of the program, their examples are run.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
 
 #include "cases/run.h"
 #include "command/command_catalogue.h"
 #include "elements/catalogue.h"
+#include "elements/settings/analysis_settings.h"
+#include "elements/settings/output_settings.h"
 #include "expression/function_manual.h"
 #include "places/source_tree.h"
 
@@ -61,6 +64,29 @@ TEST_F(Manual, runs_every_example_of_the_page_on_commands) {
     const RunResult r = run(datasets.front(), c);
     EXPECT_EQ(r.status, 0) << c << r.err;
   }
+}
+
+// Whether a row of the page names the statement and the argument.
+template <class Written>
+void expect_passed_over(const std::string& page, const std::string& statement) {
+  for (const auto& argument : Written::arguments) {
+    if (std::ranges::find(Written::acting, argument.name) != Written::acting.end()) continue;
+    const auto named = [&](const std::string& line) {
+      return line.find("`" + statement + "`") != std::string::npos &&
+             line.find("`" + std::string(argument.name) + "`") != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(lines_of(page), named)) << statement << '/' << argument.name;
+  }
+}
+
+TEST_F(Manual, lists_all_that_settings_pass_over) {
+  const std::string page = read_file(docs / "not-built.md");
+  expect_passed_over<WrittenEquilibrium>(page, "EQUILIBRIUM");
+  expect_passed_over<WrittenInitialConditions>(page, "IC");
+  expect_passed_over<WrittenKinematics>(page, "KINEMATICS");
+  expect_passed_over<WrittenIntegrator>(page, "INTEGRATOR");
+  expect_passed_over<WrittenOutput>(page, "OUTPUT");
+  expect_passed_over<WrittenResults>(page, "RESULTS");
 }
 
 TEST_F(Manual, names_every_command_on_its_page) {

@@ -100,6 +100,7 @@ TEST_F(NestedFiles, two_models_do_not_write_to_one_file) {
   EXPECT_EQ(r.status, 1);
   EXPECT_THAT(r.err, HasSubstr("[file-in-use]"));
   EXPECT_THAT(r.err, HasSubstr("OUTPUT_PREFIX"));
+  EXPECT_THAT(r.err, HasSubstr("error: the message file would be written twice, to "));
 }
 
 TEST_F(NestedFiles, file_says_what_it_lacks) {

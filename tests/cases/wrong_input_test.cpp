@@ -348,6 +348,10 @@ const std::vector<Wrong>& table() {
     {Place::added, "MARKER/9, PART=1, FLOATING\nVFORCE/9, I=20, JFLOAT=9, RM=9, FX=1", {"floating-marker 11:1"}},
     {Place::added, "MATRIX/9, SPARSE, I=1, J=3, VALUES=2, ROWS=2, COLUMNS=2", {"value-out-of-range 10:19"}},
     {Place::added, "MATRIX/9, ROWS=2", {"missing-argument 10:1"}},
+    {Place::added, "MATRIX/9, SPARSE, I=1,1, J=1,1, VALUES=-1,-2", {"matrix-entry 10:23"}},
+    {Place::added, "MATRIX/9, SPARSE, ROWS=2, I=1,2,2,1, J=1,1,2,1, VALUES=1,2,3,1", {"matrix-entry 10:35"}},
+    {Place::added, "MATRIX/9, SPARSE, I=1, J=1, VALUES=1, FILE=a, NAME=b", {"excluded-arguments 10:39"}},
+    {Place::added, "MATRIX/9, SPARSE, I=1, J=1, VALUES=1, FULL=RORDER", {"excluded-arguments 10:11"}},
     {Place::added, "C=1", {"not-a-statement 10:1"}},
     {Place::added, "PA/9, MA=1", {"missing-cm 10:1"}},
     {Place::added, "ACCGRAV/IGRAV=1, FOO=2", {"unknown-argument 10:18"}},
@@ -381,6 +385,8 @@ const std::vector<Wrong>& table() {
     {Place::added, "MARKER/9, PART=2, REULER=0,180D,0\nSFORCE/1, ROTATIONAL, I=9, J=1, FUNCTION=1", {"skew-axes 11:1", "accelerating-point 5:1"}},
     {Place::added, "PART/9, MASS=2D, CM=90, IP=1,1,1\nMARKER/90, PART=9", {"degrees-without-angle 10:14"}},
     {Place::added, "MARKER/9, PART=2, QP=1,90D,0", {"degrees-without-angle 10:24"}},
+    {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=30D, DEN=1,2D\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"degrees-without-angle 10:30", "degrees-without-angle 10:41"}},
+    {Place::added, "MATRIX/9, FULL=RORDER, ROWS=1, COLUMNS=1, VALUES=30D\nARRAY/9, IC, NUMBERS=30D\nSPLINE/9, X=1D,2D,3D,4D, Y=1D,2D,3D,4D\nVARIABLE/9, IC=30D, FUNCTION=1", {}},
     {Place::added, "CURVE/9, OPEN, MATRIX=9, FUNCTION=USER(1)\nMATRIX/9, FULL=RORDER, ROWS=1, COLUMNS=3, VALUES=1,2,3", {"missing-routine 10:35"}},
     {Place::command, "LINEAR/STATEMAT, FILE=model.adm", {"file-in-use 3:23"}},
     {Place::command, "LINEAR/STATEMAT, FILE=model.msg", {"file-in-use 3:23"}},
@@ -551,8 +557,8 @@ TEST(WrongInputTable, has_every_code_but_those_that_unit_tests_hold) {
       // implicit_diff_test
       "unfit-condition",
       // dataset/matrix_file_test
-      "matrix-complex", "matrix-count", "matrix-entry", "matrix-file-type", "matrix-header", "matrix-implied-point",
-      "matrix-missing", "matrix-number", "matrix-truncated",
+      "matrix-complex", "matrix-count", "matrix-empty-column", "matrix-entry", "matrix-file-type", "matrix-header",
+      "matrix-implied-point", "matrix-missing", "matrix-number", "matrix-scale-factor", "matrix-truncated",
       // nastran/configuration_test, nastran/deck_text_test
       "directive-syntax", "directive-value", "dropped-entries", "ignored-directive", "missing-directive",
       "unknown-channel", "unknown-directive",

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 
 #include "base/read_file.h"
 #include "dataset/characters.h"
@@ -65,7 +66,11 @@ class MatrixSet final : public TypedSet<Matrix> {
     if (!read_arguments(m, reader)) return;
     const std::string owner = reader.label().text();
     const int forms = m.full.given + m.sparse + !m.file.empty();
-    if (forms != 1) {
+    if (forms > 1) {
+      const std::string_view one = m.full.given ? "FULL" : "SPARSE", other = m.file.empty() ? "SPARSE" : "FILE";
+      reader.error("excluded-arguments", reader.at(other),
+                   fmt::format("{} and {} of {} exclude each other", one, other, owner));
+    } else if (forms == 0) {
       reader.error("missing-argument", reader.statement().at,
                    fmt::format("{} needs one of FULL, SPARSE and FILE", owner));
     } else if (!m.file.empty()) {
@@ -144,12 +149,47 @@ class MatrixSet final : public TypedSet<Matrix> {
       return;
     }
     out.rows = static_cast<std::size_t>(rows), out.columns = static_cast<std::size_t>(columns);
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < m.values.size(); ++k) {
+      places.push_back(static_cast<std::size_t>(m.column_of[k] - 1) * out.rows +
+                       static_cast<std::size_t>(m.row_of[k] - 1));
+    }
+    if (stated_twice(m, places, reader)) return;
     out.written = Matrix::Written::by_entries;
     out.values.assign(out.rows * out.columns, 0.0);
-    for (std::size_t k = 0; k < m.values.size(); ++k) {
-      out.values[static_cast<std::size_t>(m.column_of[k] - 1) * out.rows + static_cast<std::size_t>(m.row_of[k] - 1)] =
-          m.values[k];
+    for (std::size_t k = 0; k < m.values.size(); ++k) out.values[places[k]] = m.values[k];
+  }
+
+  // Where number k of the list I is written.
+  static Span row_at(std::size_t k, ElementReader& reader) {
+    const Span name = reader.at("I");
+    Diagnostics said_already;
+    for (const WrittenArgument& w : reader.statement().arguments) {
+      if (w.name.offset != name.offset || w.name.source != name.source) continue;
+      const auto rows = read_integers(w, *name.source, said_already);
+      return rows && k < rows->size() ? (*rows)[k].at : name;
     }
+    return name;
+  }
+
+  // Whether a place of the matrix has two numbers. None of them is the one that counts, nor is it said that they add
+  // up.
+  static bool stated_twice(const MatrixStatement& m, const std::vector<std::size_t>& places, ElementReader& reader) {
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    const auto first = std::adjacent_find(order.begin(), order.end(),
+                                          [&](std::size_t a, std::size_t b) { return places[a] == places[b]; });
+    if (first == order.end()) return false;
+    const std::size_t k = *first, again = *std::next(first);
+    reader.diagnostics()
+        .error("matrix-entry", row_at(again, reader),
+               fmt::format("entry {}, {} of {} is stated twice, as {} and as {}", m.row_of[k], m.column_of[k],
+                           reader.label().text(), m.values[k], m.values[again]),
+               "state their sum if both are meant")
+        .notes = {
+        {row_at(k, reader), fmt::format("here as entry {}, then as entry {} of the lists", k + 1, again + 1)}};
+    return true;
   }
 
   static void read_from_file(const MatrixStatement& m, Matrix& out, ElementReader& reader) {

@@ -3,18 +3,16 @@
 // Data points for AKISPL, CUBSPL and INTERP: one curve, or a family of curves over the same x, where each list Y begins
 // with the z of its curve.
 //
-// A file holds lines of numbers, x first. Text in brackets alone on a line begins a block; lines that begin with
-// ! $ # { ( or hold an equals sign are passed over. Two columns are one curve; with more, CHANNEL picks one, and a line
-// `Z z1 z2 …` before the numbers makes the columns a family.
+// A file holds lines of numbers, x first (spline_file.h). Two columns are one curve; with more, CHANNEL picks one, and
+// a line `Z z1 z2 …` before the numbers makes the columns a family.
 #include "elements/controls/spline.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "base/read_file.h"
+#include "elements/controls/spline_file.h"
 #include "elements/families/curve.h"
 #include "model/model.h"
 #include "model/schema.h"
@@ -47,29 +45,6 @@ struct WrittenSpline {
   }};
 };
 
-std::string upper(std::string_view text) {
-  std::string s;
-  for (const char c : text) {
-    if (!std::isspace(static_cast<unsigned char>(c)))
-      s += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  }
-  return s;
-}
-
-// The numbers of a line; nothing if it holds anything else.
-std::optional<std::vector<double>> numbers_of(std::string_view line) {
-  std::string text(line);
-  for (char& c : text) {
-    if (c == ',' || c == ';' || c == '\t') c = ' ';
-  }
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  std::vector<double> numbers;
-  for (double v = 0; in >> v;) numbers.push_back(v);
-  if (!in.eof() || numbers.empty()) return std::nullopt;
-  return numbers;
-}
-
 class SplineSet final : public TypedSet<Spline> {
  public:
   using TypedSet::TypedSet;
@@ -80,7 +55,13 @@ class SplineSet final : public TypedSet<Spline> {
     SplineData data;
     data.linear_extrapolation = w.linear;
     const bool by_file = reader.given("FILE"), by_values = reader.given("X") || reader.given("Y");
-    if (by_file == by_values || (by_values && !(reader.given("X") && reader.given("Y")))) {
+    if (by_file && by_values) {
+      const std::string_view other = reader.given("X") ? "X" : "Y";
+      reader.error("excluded-arguments", reader.at(other),
+                   fmt::format("FILE and {} of {} exclude each other", other, reader.label().text()));
+      return;
+    }
+    if (!by_file && !(reader.given("X") && reader.given("Y"))) {
       reader.error("missing-argument", reader.statement().at,
                    fmt::format("{} needs X and Y, or FILE", reader.label().text()));
       return;
@@ -153,36 +134,9 @@ class SplineSet final : public TypedSet<Spline> {
     }
     const auto source = std::make_shared<const SourceText>(path.string(), std::move(*text));
     reader.keep(source);
-    bool in_block = w.block.empty();
-    std::vector<double> z;
-    std::vector<std::vector<double>> rows;
-    for (std::size_t n = 1; n <= source->line_count(); ++n) {
-      const std::string_view line = source->line(n);
-      const std::string bare = upper(line);
-      const Span at{source.get(), static_cast<std::uint32_t>(line.data() - source->text().data()),
-                    static_cast<std::uint32_t>(line.size())};
-      if (bare.empty() || std::string_view("!$#{(").find(bare[0]) != std::string_view::npos) continue;
-      if (bare.front() == '[' && bare.back() == ']') {
-        if (!w.block.empty()) in_block = bare == "[" + upper(w.block) + "]";
-        continue;
-      }
-      if (!in_block || bare.find('=') != std::string::npos) continue;
-      const std::size_t z_at = line.find_first_not_of(" \t");
-      const bool is_z = bare[0] == 'Z';
-      const auto numbers = numbers_of(is_z ? line.substr(z_at + 1) : line);
-      if (!numbers || (!is_z && !rows.empty() && numbers->size() != rows.front().size()) ||
-          (!is_z && numbers->size() < 2)) {
-        reader.error("spline-data", at, "a line of numbers is expected, x first, all lines with as many columns");
-        return false;
-      }
-      (is_z ? z : rows.emplace_back()) = *numbers;
-    }
-    if (rows.empty()) {
-      reader.error("spline-data", reader.at("FILE"),
-                   w.block.empty() ? fmt::format("{} holds no points", path.string())
-                                   : fmt::format("{} holds no points in the block [{}]", path.string(), w.block));
-      return false;
-    }
+    const auto table = read_spline_table(*source, w.block, reader);
+    if (!table) return false;
+    const auto& [rows, z] = *table;
     const std::size_t columns = rows.front().size() - 1;
     if (w.channel && static_cast<std::size_t>(*w.channel) > columns) {
       reader.error("value-out-of-range", reader.at("CHANNEL"),
