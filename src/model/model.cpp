@@ -111,9 +111,9 @@ double Model::characteristic_length(std::span<const MarkerId> of) const {
   const Vector b = farthest(a);
   const Vector c = farthest(b);
   double length = std::max(norm(b - a), norm(c - b));
-  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Markers
-  // that stand at one place but for rounding are none either, but bodies are not so small.
-  constexpr double farther = 1e4, coincide = 1e-12;
+  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Places
+  // that nearly coincide are none either, but the bodies there are not so small.
+  constexpr double farther = 1e4, coincide = 1e-3;
   if (const double size = size_of_bodies(*this, of); size > 0) {
     length = std::min(length, farther * std::max(radius_of_most(points), size));
     if (length <= coincide * size) length = size;

@@ -105,7 +105,8 @@ struct Model {
 
   // The largest distance between two of the given markers and the mass centres as drawn: the length by which
   // displacements and rotations are compared. At most 10 000 times the radius that holds three quarters of them
-  // or, if that is more, the size of a body; that size where all are at one place, 1 where there is nothing. [length]
+  // or, if that is more, the size of a body; that size where all are nearly at one place; 1 where there is nothing.
+  // [length]
   double characteristic_length(std::span<const MarkerId> markers) const;
   double characteristic_length() const;  // of all markers
 
