@@ -84,11 +84,6 @@ bool ConservativeKrylov::start() {
 
 bool ConservativeKrylov::fill() {
   while (processed_ < most_) {
-    // The images of all vectors are in the space: so it is with equal values, of which each start vector finds one.
-    if (size_ == processed_ && size_ < left_) {
-      if (!start_at(locked_ + size_)) break;
-      ++size_;
-    }
     const Index block = std::min({at_a_time, most_ - processed_, size_ - processed_});
     if (block <= 0) break;
     Matrix images = image(V_.middleCols(locked_ + processed_, block));

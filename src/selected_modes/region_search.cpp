@@ -197,9 +197,7 @@ bool RegionSearch::find_nearest(const NearestModes& nearest) {
     const auto disc = disc_of(nearest, modes, std::min<Index>(zero_.count(), zeros), right_->everything());
     if (!disc) {
       if (!progress && ++fruitless > 2) return false;
-      // There may be very many equal ones.
-      target = std::max(target, right_->found());
-      target += std::max<Index>(6, target / 2);
+      target = std::max(target, right_->found()) + 6;
       continue;
     }
     region_ = *disc;
