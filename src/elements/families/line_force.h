@@ -2,15 +2,18 @@
 //
 // line_force: a member gives `S along_line(const TimeTaylor<S>& d)`, the force as a law of the distance and its
 // rate; positive pushes I away from J. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
-// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J).
+// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J), and says with `bool reads_angle()`
+// whether the angle has a factor in it: AZ does not exist everywhere, and is not evaluated if it has none.
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "elements/families/drawn_axes.h"
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
+#include "elements/families/read_displacement.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
 #include "mechanics/wrench_source.h"
@@ -85,7 +88,8 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const E& e = elements[k];
-      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.count_turns(Measure::AZ, e.i, e.j)});
+      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j),
+                          CountedAngles(layout, e.i, e.j, {false, false, e.reads_angle()})});
     }
   }
 
@@ -106,17 +110,27 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
     out.pair = pair_motion(motion, torques_[k].I, torques_[k].J);
     out.force = torque_of(torques_[k], out.pair, motion, wanted);
   }
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
+    for (std::size_t k = 0; k < torques_.size(); ++k) {
+      const Torque& t = torques_[k];
+      if (auto angle = undefined_angle((*labels_)[k], t.angles.read(), pair_motion(motion, t.I, t.J)))
+        undefined.add(std::move(*angle));
+    }
+  }
 
  private:
   struct Torque {
     E element;
     MarkerPlace I, J;
-    std::int32_t memory;
+    CountedAngles angles;
   };
   static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, Partials wanted) {
     const auto I = path::seeded<12>(pair.relative);
-    Dual<12> angle = joint_rotation(I).value;
-    angle.value = unwrapped(angle.value, motion.memory[static_cast<std::size_t>(t.memory)]);
+    Dual<12> angle(0.0);
+    if (constexpr std::size_t AZ = 2; t.angles.read()[AZ]) {
+      angle = joint_rotation(I).value;
+      angle.value = unwrapped(angle.value, t.angles.total(AZ, motion));
+    }
     // z component of the relative angular velocity, ½ Σ a × a′ over the axes of I seen from J.
     const auto about_z = [](const auto& a) { return a.x.value * a.y.rate - a.y.value * a.x.rate; };
     const Dual<12> rate = (about_z(I.x) + about_z(I.y) + about_z(I.z)) * 0.5;
