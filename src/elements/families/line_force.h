@@ -1,7 +1,8 @@
 // One scalar law along the line between two markers, or about the z axis of J.
 //
 // line_force: a member gives `S along_line(const TimeTaylor<S>& d)`, the force as a law of the distance and its
-// rate; positive pushes I away from J. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
+// rate; positive pushes I away from J, and says with `bool needs_direction()` whether it is anything but a multiple of
+// the distance. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
 // torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J), and says with `bool reads_angle()`
 // whether the angle has a factor in it: AZ does not exist everywhere, and is not evaluated if it has none.
 #pragma once
@@ -48,11 +49,11 @@ class LineForceKernel final : public Kernel, public WrenchSource {
   }
   void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
-      const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
-      if (norm(line) != 0.0 || is_smooth(law(forces_[k], 0.0, 0.0))) continue;
-      const ElementLabel& label = (*labels_)[k];
-      undefined_values.add(UndefinedValue{
-          &label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
+      const PairMotion pair = pair_motion(motion, forces_[k].I, forces_[k].J);
+      if (!markers_meet(pair)) continue;
+      const LineMagnitude F = where_they_meet(forces_[k], pair);
+      if (F.value == 0.0 && F.on_rate == 0.0) continue;
+      undefined_values.add(UndefinedValue{&(*labels_)[k], text_without_direction((*labels_)[k]), F.value != 0.0});
     }
   }
 
@@ -66,15 +67,16 @@ class LineForceKernel final : public Kernel, public WrenchSource {
         TimeTaylor<Dual<2>>{Dual<2>(distance, 0), Dual<2>(rate, 1), Dual<2>(detail::missing(0.0))});
     return {F.value, F.partial[0], F.partial[1]};
   }
-  // Where the markers meet: a force that vanishes there, and damps nothing, needs no direction.
-  static bool is_smooth(const LineMagnitude& where_they_meet) {
-    return where_they_meet.value == 0.0 && where_they_meet.on_rate == 0.0;
+  // They part as fast as they move.
+  static LineMagnitude where_they_meet(const Force& f, const PairMotion& pair) {
+    return law(f, 0.0, norm(rate(pair.delta)));
   }
   static PairForce force_of(const Force& f, const PairMotion& pair, Partials wanted) {
-    const Taylor d = norm(pair.delta);
-    if (d.value == 0.0) {
-      if (const LineMagnitude F = law(f, 0.0, 0.0); is_smooth(F)) return around_origin(F.on_distance, wanted);
+    if (markers_meet(pair)) {
+      const LineMagnitude F = where_they_meet(f, pair);
+      return F.value == 0.0 ? around_origin(F, wanted) : without_direction(wanted);
     }
+    const Taylor d = norm(pair.delta);
     return along_line(pair, law(f, d.value, d.rate), wanted);
   }
   std::vector<Force> forces_;
@@ -161,6 +163,9 @@ class TwoMarkerForceSet final : public TypedSet<E> {
       const E& e = this->elements[k];
       if (!check_pair(model, this->labels[k], e.i, e.j, {.rotation_of_I = turns, .rotation_of_J = turns}, diagnostics))
         continue;
+      if constexpr (!turns) {
+        if (e.needs_direction()) warn_of_missing_line(model, this->labels[k], e.i, e.j, diagnostics);
+      }
       if (turns) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }
