@@ -3,59 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "analysis/amplified_velocity.h"
 #include "analysis/contradiction.h"
 #include "analysis/initial.h"
-#include "analysis/outside_weight.h"
 #include "analysis/stated_shape.h"
 #include "analysis/velocity_conditions.h"
+#include "analysis/velocity_norm.h"
+#include "analysis/velocity_room.h"
 
 namespace dynalin {
 
 namespace {
 
-// ½ Σ |v_C|² + L² |ω|² over all bodies, times `weight`.
-void add_norm(const System& system, const Motion& motion, double weight, std::vector<Triplet>& entries) {
-  const double L2 = system.length() * system.length();
-  for (std::size_t b = 1; b < system.layout().bodies.size(); ++b) {
-    const BodyBlock& block = system.layout().bodies[b];
-    const Vector c = motion.bodies[b].R * system.model().bodies[b].p_BC;
-    const Matrix3 C = -skew(c);  // v_C = v + C ω
-    const Matrix3 CC = transpose(C) * C;
-    for (std::size_t r = 0; r < 3; ++r) {
-      const auto i = block.offset + static_cast<std::int32_t>(r);
-      entries.push_back({i, i, weight});
-      for (std::size_t k = 0; k < 3 && block.turns(); ++k) {
-        const auto j = block.offset + 3 + static_cast<std::int32_t>(k);
-        entries.push_back({i, j, weight * C(r, k)});
-        entries.push_back({j, i, weight * C(r, k)});
-        entries.push_back(
-            {block.offset + 3 + static_cast<std::int32_t>(r), j, weight * (CC(r, k) + (r == k ? L2 : 0.0))});
-      }
-    }
-  }
-  // Points of contact follow them: a weight that only keeps the matrix regular where nothing moves them.
-  for (const ExtraBlock& e : system.layout().extras) {
-    for (std::int32_t k = 0; k < e.count; ++k) {
-      const double s = system.length() / system.coordinate_scale(e.offset + k);
-      entries.push_back({e.offset + k, e.offset + k, outside_weight(e) * weight * s * s});
-    }
-  }
-}
-
 // Redundant rows are combinations of the others to 1e-9 of themselves, and so is what they ask of velocities.
 constexpr double contradicting_velocity = 1e-8;
 // Of the fastest of all: what solving may leave of it elsewhere.
 constexpr double solution_rounding = 1e-12;
-
-// Displacements in lengths of the model and rotations alike.
-double fastest_of(const System& system, const Eigen::VectorXd& velocity) {
-  double fastest = 0;
-  for (std::int32_t k = 0; k < velocity.size(); ++k) {
-    fastest = std::max(fastest, std::abs(velocity(k)) / system.coordinate_scale(k));
-  }
-  return fastest;
-}
 
 // Whether velocities meet a condition as far as it follows from others, in the size of its own terms: those that axes
 // turned otherwise would show count as well. `tolerance` is relative, `rounding` is that of velocities, in lengths of
@@ -79,6 +44,7 @@ struct LeastChange {
   Eigen::VectorXd velocity;
   std::vector<std::size_t> contradicted;
   std::vector<bool> independent{};  // conditions
+  Eigen::VectorXd multipliers{};    // of conditions: what their part in the change is
 };
 std::vector<SparseRow> scaled_conditions(const System& system, const std::vector<VelocityCondition>& conditions) {
   std::vector<SparseRow> scaled(conditions.size());
@@ -99,7 +65,7 @@ Result<LeastChange> least_change(const System& system, const Motion& motion,
   const Elimination e = eliminate(scaled_conditions(system, conditions), static_cast<std::int32_t>(n), order);
 
   std::vector<Triplet> entries;
-  add_norm(system, motion, 1.0, entries);
+  add_velocity_norm(system, motion, 1.0, entries);
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n + m, 1);
   for (const Triplet& t : entries) x(t.row, 0) += t.value * start(t.column);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
@@ -120,7 +86,7 @@ Result<LeastChange> least_change(const System& system, const Motion& motion,
         Failure{"velocity initial conditions", "the velocity conditions are singular", {}, "singular-constraints"});
   }
   lu.solve(x);
-  LeastChange result{x.col(0).head(n), {}, {}};
+  LeastChange result{x.col(0).head(n), {}, {}, x.col(0).tail(m)};
   const double rounding = solution_rounding * fastest_of(system, result.velocity);
   for (std::size_t k = 0; k < conditions.size(); ++k) {
     result.independent.push_back(e.pivot_column[k] >= 0);
@@ -149,15 +115,6 @@ void keep_as_stated(const std::vector<VelocityCondition>& conditions, std::size_
     velocity = std::move(kept);
 }
 
-// In what unit a condition counts beside others: turns by the length, or the unit of length would decide which of them
-// gives way.
-double unit_of(const System& system, const VelocityCondition& c) {
-  double size = 0;
-  for (std::size_t i = 0; i < c.column.size(); ++i)
-    size = std::max(size, std::abs(c.coefficient[i]) * system.coordinate_scale(c.column[i]));
-  return size > 0 ? system.length() / size : 0.0;
-}
-
 // The velocities that meet the constraints, which come first, and the other conditions in the sense of least squares;
 // what these leave open changes least from `start`.
 Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, const ConstraintRows& rows,
@@ -165,7 +122,7 @@ Result<Eigen::VectorXd> nearest(const System& system, const Motion& motion, cons
   const auto n = static_cast<Eigen::Index>(system.coordinates());
   const std::vector<bool> active = system.partition(rows, RowLevel::velocity).active;
   std::vector<Triplet> entries;
-  add_norm(system, motion, 1e-10, entries);
+  add_velocity_norm(system, motion, 1e-10, entries);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n + static_cast<Eigen::Index>(active.size()), 1);
   for (std::size_t k = active.size(); k < conditions.size(); ++k) {
     const VelocityCondition& c = conditions[k];
@@ -248,9 +205,18 @@ Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint&
     velocity = std::move(hard->velocity);
   }
   if (!stated.empty() && !(holds && as_stated)) {
+    const Eigen::VectorXd before = velocity;
     conditions.insert(conditions.end(), stated.begin(), stated.end());
     auto kept = least_change(system, motion, conditions, start, tolerance);
     if (!kept) return tl::unexpected(kept.error());
+    // What the constraints leave no room for is given up whole; of a trace of room, the sense of least squares would
+    // make a part of it.
+    std::vector<VelocityCondition> given_up;
+    if (!kept->contradicted.empty()) {
+      given_up = take_without_room(system, motion, rows.rows(), conditions);
+      if (!given_up.empty()) kept = least_change(system, motion, conditions, start, tolerance);
+      if (!kept) return tl::unexpected(kept.error());
+    }
     // Where the stated values cannot all be kept, the point nearest to all of them is taken; a second pass undoes what
     // the least change has pulled it. Where some follow from others, but for a tolerance, all count alike.
     const bool contradicted = !kept->contradicted.empty();
@@ -263,13 +229,17 @@ Result<Eigen::VectorXd> solve_affine(const System& system, const OperatingPoint&
     }
     if (!contradicted) keep_as_stated(conditions, constraints, velocity);
     const double unnoticed = contradicting_velocity * fastest_of(system, velocity);
-    for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) {
-      const double stated_value = conditions[k].value, value = stated_value + miss(conditions[k], velocity).value;
-      if (follows(system, conditions[k], velocity, tolerance, unnoticed)) continue;
-      warnings.warning("changed-velocity", conditions[k].at,
+    const auto tell_of_change = [&](const VelocityCondition& c) {
+      if (follows(system, c, velocity, tolerance, unnoticed)) return;
+      warnings.warning("changed-velocity", c.at,
                        fmt::format("the initial velocity {} = {:g} contradicts the constraints and was changed to {:g}",
-                                   conditions[k].text, stated_value, value));
-    }
+                                   c.text, c.value, c.value + miss(c, velocity).value));
+    };
+    std::ranges::for_each(given_up, tell_of_change);
+    for (std::size_t k = constraints; k < conditions.size() && contradicted; ++k) tell_of_change(conditions[k]);
+    warn_of_amplified_velocity(system, motion, {before, velocity}, std::span(conditions).subspan(constraints),
+                               kept->multipliers.tail(static_cast<Eigen::Index>(conditions.size() - constraints)),
+                               warnings);
   }
   keep_shape(system, motion, conditions, start, tolerance, velocity);
   return velocity;

@@ -121,6 +121,56 @@ TEST(Velocity, stated_turns_give_way_by_the_length) {
   }
 }
 
+// A bar from its hinge to a mass centre at 0.4, turned by `angle` from the direction in which that is stated to move.
+Start along_a_bar(double angle, const std::string& more = "") {
+  return Start(fmt::format("PART/2, MASS=2, CM=20, IP=1,1,1, QG={:.17g},{:.17g},0, REULER={:.17g},0,0, VX=1\n"
+                           "MARKER/20\nMARKER/21, QP=-0.4,0,0\nJOINT/1, REVOLUTE, I=21, J=1\n",
+                           0.4 * std::cos(angle), 0.4 * std::sin(angle), angle) +
+               more);
+}
+std::vector<std::string> codes_of(const Start& s) {
+  std::vector<std::string> codes;
+  for (const auto& remark : s.findings.warnings.items()) codes.emplace_back(remark.code);
+  return codes;
+}
+
+TEST(Velocity, stated_along_a_bar_is_kept_or_given_up_and_never_kept_in_part) {
+  // Another that contradicts a constraint of its own, and follows from it alone.
+  const std::string contradicting =
+      "PART/3, MASS=1, CM=30, IP=1,1,1, VX=1\nMARKER/30\nJOINT/2, TRANSLATIONAL, I=30, J=1\n";
+  for (const std::string& more : {std::string(), contradicting}) {
+    const std::size_t others = more.empty() ? 0 : 1;
+    for (const double angle : {0.0, 1e-14, 1e-11, 1e-10, 3e-10}) {
+      const Start s = along_a_bar(angle, more);
+      ASSERT_TRUE(s.op);
+      EXPECT_NEAR(s.velocity(5), 0, 1e-12) << angle;
+      EXPECT_EQ(codes_of(s), std::vector<std::string>(1 + others, "changed-velocity")) << angle;
+      EXPECT_THAT(s.findings.warnings.items().back().message + s.findings.warnings.items().front().message,
+                  HasSubstr("VX of PART/2 = 1 contradicts"));
+    }
+    for (const double angle : {1e-5, 1e-4}) {
+      const Start s = along_a_bar(angle, more);
+      ASSERT_TRUE(s.op);
+      EXPECT_NEAR(s.velocity(5) * angle, -1 / 0.4, 1e-6) << angle;
+    }
+  }
+}
+
+TEST(Velocity, that_takes_far_larger_ones_is_told) {
+  const Start s = along_a_bar(1e-4);
+  ASSERT_EQ(codes_of(s), std::vector<std::string>{"amplified-velocity"});
+  EXPECT_THAT(
+      s.findings.warnings.items()[0].message,
+      HasSubstr("the initial velocity VX of PART/2 = 1 is kept by others that are 1e+04 times as large, most of "
+                "all of PART/2 (mass centre 10000 "));
+  EXPECT_THAT(codes_of(along_a_bar(0.01)), ::testing::IsEmpty());
+  // What a motion drives is no part of it.
+  EXPECT_THAT(codes_of(along_a_bar(0.01,
+                                   "PART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nJOINT/2, REVOLUTE, I=30, J=1\n"
+                                   "MOTION/1, JOINT=2, FUNCTION=1E9*TIME\n")),
+              ::testing::IsEmpty());
+}
+
 TEST(Velocity, constraints_that_contradict_each_other_fail_by_name) {
   const Start s(
       "POINT_MASS/2, MASS=1, CM=20\nMARKER/20, POINT_MASS=2\nGCON/1, FUNCTION=DX(20,1)-TIME\n"

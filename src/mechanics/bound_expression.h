@@ -20,6 +20,15 @@ namespace dynalin {
 // equation: its kinks are none of the motion.
 enum class Binding : std::uint8_t { equations, rates, condition, condition_rates, observation };
 
+// What an expression is where two markers meet, whose distance it may read: that has one slope whichever way they part.
+struct AtMeeting {
+  double value = 0, by_distance = 0;
+  // What it varies with besides, and whether it has a derivative by that.
+  enum class Others : std::uint8_t { none, defined, undefined } others = Others::none;
+
+  bool is_multiple_of_distance() const { return value == 0.0 && others == Others::none; }
+};
+
 class BoundExpression {
  public:
   BoundExpression() = default;
@@ -66,6 +75,9 @@ class BoundExpression {
   void look_ahead(const Motion& from, const Motion& to, ExpressionScratch&, StepReach&) const;
   // Whether all it reads are positions, velocities, states and the time, none of which jumps without a slope that does.
   bool reads_states_only() const;
+
+  bool reads_forces() const;
+  AtMeeting where_they_meet(const Motion&, ExpressionScratch&, const MarkerPlace& I, const MarkerPlace& J) const;
 
   // Adds what is wrong when a value or partial is not finite: function, argument and reason.
   // With rates also what its time derivative or a second derivative does not have. In a search for kinks adds the

@@ -1,7 +1,9 @@
 #include "mechanics/pair.h"
 
+#include <limits>
 #include <optional>
 
+#include "expression/measured_zero.h"
 #include "mechanics/pair_blocks.h"
 #include "mechanics/pair_sizes.h"
 
@@ -100,13 +102,29 @@ PairForce along_line(const PairMotion& p, const LineMagnitude& F, Partials wante
   return out;
 }
 
-PairForce around_origin(double on_distance, Partials wanted) {
+bool markers_meet(const PairMotion& p) {
+  const auto place = [&](BodyId body, const Vec3<Taylor>& arm) { return p.motion->body(body).r + value(arm); };
+  const double size = measured::largest(place(p.body_I, p.arm_I)) + measured::largest(place(p.body_J, p.arm_J));
+  return measured::largest(value(p.delta)) <= measured::rounding * size;
+}
+
+PairForce around_origin(const LineMagnitude& F, Partials wanted) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   PairForce out;
   out.reaction = Reaction::at_J;
   out.components = Components::force;
+  out.depends_on_velocity = F.on_rate != 0.0;
   if (wanted == Partials::no) return out;
-  const Matrix3 on_delta = on_distance * Matrix3::identity();
+  const Matrix3 on_delta = (out.depends_on_velocity ? unknown : F.on_distance) * Matrix3::identity();
   out.force_on_position.origin_I = on_delta, out.force_on_position.origin_J = -on_delta;
+  if (out.depends_on_velocity) out.force_on_velocity = out.force_on_position;
+  return out;
+}
+
+PairForce without_direction(Partials wanted) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  PairForce out = around_origin({0.0, unknown, 0.0}, wanted);
+  out.force = {unknown, unknown, unknown};
   return out;
 }
 

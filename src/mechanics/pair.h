@@ -65,8 +65,13 @@ struct LineMagnitude {
   double value = 0, on_distance = 0, on_rate = 0;
 };
 PairForce along_line(const PairMotion&, const LineMagnitude&, Partials wanted);
-// The same of a force that is a multiple of Δ, where Δ = 0: δf = F_d δΔ.
-PairForce around_origin(double on_distance, Partials wanted);
+// Whether I is where J is, to rounding: there the line has no direction.
+bool markers_meet(const PairMotion&);
+// The same where they meet, of a force that is nothing there: δf = F_d δΔ as for any multiple of Δ. By the rate it
+// changes along a line that is not there, and has no partials.
+PairForce around_origin(const LineMagnitude&, Partials wanted);
+// Of a force that is something there: no value.
+PairForce without_direction(Partials wanted);
 
 // Adds force, reaction and partials to the balance of both bodies.
 void apply(const PairMotion&, const PairForce&, Equations&, PartialBy velocity_family = PartialBy::damping);

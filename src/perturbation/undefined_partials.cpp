@@ -164,10 +164,18 @@ std::optional<Failure> UndefinedPartials::named(const std::vector<Entry>& entrie
         return std::any_of(layout.algebraic.begin(), layout.algebraic.end(), owns) ||
                std::any_of(layout.states.begin(), layout.states.end(), owns);
       };
+      // What acts by an unknown is known by that.
+      const auto reason_of = [&](const Entry& by) {
+        if (by.family != PartialBy::algebraic) return std::string();
+        return undefined_value_of(undefined_values, *layout.algebraic[static_cast<std::size_t>(by.column)].owner);
+      };
+      sentence = reason_of(e);
       const auto found = std::find_if_not(undefined_values.begin(), undefined_values.end(), has_unknown);
-      sentence = found != undefined_values.end()
-                     ? found->reason
-                     : fmt::format("the force on {} has no finite derivative here", layout.coordinate_text(e.row));
+      if (sentence.empty() && found != undefined_values.end()) sentence = found->reason;
+      for (std::size_t k = 0; k < entries_.size() && sentence.empty(); ++k)
+        if (entries_[k].row == e.row) sentence = reason_of(entries_[k]);
+      if (sentence.empty())
+        sentence = fmt::format("the force on {} has no finite derivative here", layout.coordinate_text(e.row));
     }
     add(sentence);
   }

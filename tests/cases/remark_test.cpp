@@ -31,6 +31,11 @@ const std::vector<Remark>& table() {
        "JOINT/1, REVOLUTE, I=20, J=1\nPART/3, MASS=1, CM=30, IP=1,1,1, QG=1,0,0, WZ=3, VY=3\nMARKER/30\n"
        "MARKER/21, PART=2, QP=1,0,0\nBUSHING/1, I=30, J=21, K=9,9,9, KT=9,9,9\nEND\n",
        "LINEAR/EIGENSOL, RM=20\n"},
+      {"amplified-velocity", 5,
+       "t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, QG=0.4,4E-6,0, "
+       "REULER=1E-5,0,0, "
+       "VX=1\nMARKER/20\nMARKER/21, QP=-.4,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nEND\n",
+       "SIMULATE/INITIAL_CONDITIONS\n"},
       {"changed-velocity", 5, SLIDER("VX=1, " BODY) "END\n", "LINEAR/EIGENSOL\n"},
       {"changed-position", 5,
        SLIDER(BODY "EXACT=Z, ") "GCON/1, FUNCTION=DZ(20)-2\nMARKER/21, PART=2\nPART/3, MASS=1, CM=30, IP=1,1,1\n"

@@ -383,6 +383,7 @@ const std::vector<Wrong>& table() {
     {Place::added, "GEAR/1, JOINTS=1,1, CV=1", {"same-joint-twice 10:9"}},
     {Place::added, "MARKER/9, PART=2, REULER=0,60D,0\nSPRINGDAMPER/1, ROTATIONAL, I=9, J=1, KT=1", {"skew-axes 11:1"}},
     {Place::added, "MARKER/9, PART=2, REULER=0,180D,0\nSFORCE/1, ROTATIONAL, I=9, J=1, FUNCTION=1", {"skew-axes 11:1", "accelerating-point 5:1"}},
+    {Place::added, "SFORCE/1, TRANSLATIONAL, I=20, J=1, FUNCTION=0", {"no-line-of-action 10:1"}},
     {Place::added, "PART/9, MASS=2D, CM=90, IP=1,1,1\nMARKER/90, PART=9", {"degrees-without-angle 10:14"}},
     {Place::added, "MARKER/9, PART=2, QP=1,90D,0", {"degrees-without-angle 10:24"}},
     {Place::added, "TFSISO/9, U=1, X=2, Y=3, NUM=30D, DEN=1,2D\nARRAY/1, U, VARIABLES=1\nARRAY/2, X\nARRAY/3, Y", {"degrees-without-angle 10:30", "degrees-without-angle 10:41"}},

@@ -43,6 +43,16 @@ class DefinedUnknown {
   void add_equation(const Motion& motion, Equations& eq) const {
     bound_.add(motion, eq, begin_definition(motion, eq, unknown_), -1.0, PartialBy::damping);
   }
+  // The same where e is zero and counts as constant: entries of the pattern stay.
+  void add_equation_of_zero(const Motion& motion, Equations& eq) const {
+    bound_.add(motion, eq, begin_definition(motion, eq, unknown_), 0.0, PartialBy::damping);
+  }
+  // One that reads forces may read itself: there the unknown is all that is known.
+  AtMeeting where_they_meet(const Motion& motion, ExpressionScratch& scratch, const MarkerPlace& I,
+                            const MarkerPlace& J) const {
+    if (bound_.reads_forces()) return {at(motion), 0.0, AtMeeting::Others::defined};
+    return bound_.where_they_meet(motion, scratch, I, J);
+  }
   void find_undefined(const Motion& motion, const ElementLabel& of, UndefinedValues& found) const {
     bound_.find_undefined(motion, of, found);
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/families/common_frame.h"
+
 namespace dynalin {
 
 namespace {
@@ -70,6 +72,22 @@ void warn_of_skew_axes(const Model& model, const ElementLabel& label, MarkerId i
                   std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi, label.full_text(),
                   model.marker(j).label->text()),
       "they are meant to be parallel and to point the same way");
+}
+
+void warn_of_missing_line(const Model& model, const ElementLabel& label, MarkerId i, MarkerId j,
+                          Diagnostics& diagnostics) {
+  const Marker &I = model.marker(i), &J = model.marker(j);
+  if (I.floating || J.floating || I.place.body == J.place.body) return;
+  const double size = norm(model.body(J.place.body).pose.r) + norm(J.place.p_BM);
+  if (norm(drawn_frame(model, i, j).p) > rounding_of_places * size) return;
+  diagnostics.warning("no-line-of-action", label.at,
+                      fmt::format("{} and {} are drawn at one point: the line of action of {} has no direction there",
+                                  I.label->text(), J.label->text(), label.full_text()),
+                      "only a force that is zero there can be: draw the markers apart, or use one along axes");
+}
+
+std::string text_without_direction(const ElementLabel& label) {
+  return "the markers of " + label.full_text() + " coincide, its line of action has no direction";
 }
 
 }  // namespace dynalin

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "elements/families/markers.h"
@@ -16,5 +17,10 @@ void check_drawn_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j,
 
 // Warns where the z axes of a torque between I and J are not parallel as drawn: it acts about that of J all the same.
 void warn_of_skew_axes(const Model&, const ElementLabel&, MarkerId i, MarkerId j, Diagnostics&);
+
+// Warns where the markers of a force along the line between them are drawn at one point.
+void warn_of_missing_line(const Model&, const ElementLabel&, MarkerId i, MarkerId j, Diagnostics&);
+// Why such a force has no value there.
+std::string text_without_direction(const ElementLabel&);
 
 }  // namespace dynalin

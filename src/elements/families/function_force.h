@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "elements/families/defined_unknown.h"
@@ -43,6 +44,13 @@ class FunctionForceKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
     DefinedUnknown magnitude;
   };
+  // Where the markers of a force along their line meet: the force, and what a unit of its magnitude adds.
+  struct Meeting {
+    AtMeeting magnitude;
+    PairForce force, by_magnitude;
+  };
+  static std::optional<Meeting> meeting(const Force&, const PairMotion&, const Motion&, ExpressionScratch&,
+                                        Partials wanted);
   static PairForce force_of(const Force&, const PairMotion&, double magnitude, Partials wanted);
   std::vector<Force> forces_;
 };

@@ -1,16 +1,20 @@
 // One scalar law along the line between two markers, or about the z axis of J.
 //
 // line_force: a member gives `S along_line(const TimeTaylor<S>& d)`, the force as a law of the distance and its
-// rate; positive pushes I away from J. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
-// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J).
+// rate; positive pushes I away from J, and says with `bool needs_direction()` whether it is anything but a multiple of
+// the distance. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
+// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J), and says with `bool reads_angle()`
+// whether the angle has a factor in it: AZ does not exist everywhere, and is not evaluated if it has none.
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "elements/families/drawn_axes.h"
 #include "elements/families/joint.h"
 #include "elements/families/markers.h"
+#include "elements/families/read_displacement.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
 #include "mechanics/wrench_source.h"
@@ -45,11 +49,11 @@ class LineForceKernel final : public Kernel, public WrenchSource {
   }
   void undefined_values(const Motion& motion, UndefinedValues& undefined_values) const override {
     for (std::size_t k = 0; k < forces_.size(); ++k) {
-      const Vector line = motion.point(forces_[k].I) - motion.point(forces_[k].J);
-      if (norm(line) != 0.0 || is_smooth(law(forces_[k], 0.0, 0.0))) continue;
-      const ElementLabel& label = (*labels_)[k];
-      undefined_values.add(UndefinedValue{
-          &label, "the markers of " + label.full_text() + " coincide, its line of action has no direction"});
+      const PairMotion pair = pair_motion(motion, forces_[k].I, forces_[k].J);
+      if (!markers_meet(pair)) continue;
+      const LineMagnitude F = where_they_meet(forces_[k], pair);
+      if (F.value == 0.0 && F.on_rate == 0.0) continue;
+      undefined_values.add(UndefinedValue{&(*labels_)[k], text_without_direction((*labels_)[k]), F.value != 0.0});
     }
   }
 
@@ -63,15 +67,16 @@ class LineForceKernel final : public Kernel, public WrenchSource {
         TimeTaylor<Dual<2>>{Dual<2>(distance, 0), Dual<2>(rate, 1), Dual<2>(detail::missing(0.0))});
     return {F.value, F.partial[0], F.partial[1]};
   }
-  // Where the markers meet: a force that vanishes there, and damps nothing, needs no direction.
-  static bool is_smooth(const LineMagnitude& where_they_meet) {
-    return where_they_meet.value == 0.0 && where_they_meet.on_rate == 0.0;
+  // They part as fast as they move.
+  static LineMagnitude where_they_meet(const Force& f, const PairMotion& pair) {
+    return law(f, 0.0, norm(rate(pair.delta)));
   }
   static PairForce force_of(const Force& f, const PairMotion& pair, Partials wanted) {
-    const Taylor d = norm(pair.delta);
-    if (d.value == 0.0) {
-      if (const LineMagnitude F = law(f, 0.0, 0.0); is_smooth(F)) return around_origin(F.on_distance, wanted);
+    if (markers_meet(pair)) {
+      const LineMagnitude F = where_they_meet(f, pair);
+      return F.value == 0.0 ? around_origin(F, wanted) : without_direction(wanted);
     }
+    const Taylor d = norm(pair.delta);
     return along_line(pair, law(f, d.value, d.rate), wanted);
   }
   std::vector<Force> forces_;
@@ -85,7 +90,8 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       : labels_(&labels) {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const E& e = elements[k];
-      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j), layout.count_turns(Measure::AZ, e.i, e.j)});
+      torques_.push_back({e, layout.marker(e.i), layout.marker(e.j),
+                          CountedAngles(layout, e.i, e.j, {false, false, e.reads_angle()})});
     }
   }
 
@@ -106,17 +112,27 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
     out.pair = pair_motion(motion, torques_[k].I, torques_[k].J);
     out.force = torque_of(torques_[k], out.pair, motion, wanted);
   }
+  void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
+    for (std::size_t k = 0; k < torques_.size(); ++k) {
+      const Torque& t = torques_[k];
+      if (auto angle = undefined_angle((*labels_)[k], t.angles.read(), pair_motion(motion, t.I, t.J)))
+        undefined.add(std::move(*angle));
+    }
+  }
 
  private:
   struct Torque {
     E element;
     MarkerPlace I, J;
-    std::int32_t memory;
+    CountedAngles angles;
   };
   static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, Partials wanted) {
     const auto I = path::seeded<12>(pair.relative);
-    Dual<12> angle = joint_rotation(I).value;
-    angle.value = unwrapped(angle.value, motion.memory[static_cast<std::size_t>(t.memory)]);
+    Dual<12> angle(0.0);
+    if (constexpr std::size_t AZ = 2; t.angles.read()[AZ]) {
+      angle = joint_rotation(I).value;
+      angle.value = unwrapped(angle.value, t.angles.total(AZ, motion));
+    }
     // z component of the relative angular velocity, ½ Σ a × a′ over the axes of I seen from J.
     const auto about_z = [](const auto& a) { return a.x.value * a.y.rate - a.y.value * a.x.rate; };
     const Dual<12> rate = (about_z(I.x) + about_z(I.y) + about_z(I.z)) * 0.5;
@@ -147,6 +163,9 @@ class TwoMarkerForceSet final : public TypedSet<E> {
       const E& e = this->elements[k];
       if (!check_pair(model, this->labels[k], e.i, e.j, {.rotation_of_I = turns, .rotation_of_J = turns}, diagnostics))
         continue;
+      if constexpr (!turns) {
+        if (e.needs_direction()) warn_of_missing_line(model, this->labels[k], e.i, e.j, diagnostics);
+      }
       if (turns) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }

@@ -4,39 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "elements/families/common_frame.h"
 
 namespace dynalin {
 
 namespace {
-
-// AX, AY, AZ of I seen from J: angles from y_J, z_J, x_J to the projections of y.. of I (dataset language, section
-// 0.1).
-template <class T>
-std::array<T, 3> projected_angles(const RelativeFrame<T>& I) {
-  using std::atan2;
-  return {atan2(-I.z.y, I.z.z), atan2(I.z.x, I.z.z), atan2(I.x.y, I.x.x)};
-}
-
-// An angle is not defined where an axis of I is along that axis of J about which nothing can be seen.
-struct Angle {
-  std::string_view name;
-  char axis_I, axis_J;
-};
-constexpr std::array<Angle, 3> angles_read = {{{"AX", 'z', 'x'}, {"AY", 'z', 'y'}, {"AZ", 'x', 'z'}}};
-
-// Of those that the law reads the first for which both arguments of ATAN2 vanish: below that they are roundings.
-const Angle* undefined_angle(const LinearWrench& law, const RelativeFrame<double>& I) {
-  constexpr double rounding_of_axes = 1e-12;
-  const std::array<double, 3> sizes = {std::hypot(I.z.y, I.z.z), std::hypot(I.z.x, I.z.z), std::hypot(I.x.y, I.x.x)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto reads = [&](const LinearWrench::Coupling& c) { return c.column == 3 + k; };
-    const bool read = law.routine || std::ranges::any_of(law.couplings, reads);
-    if (read && sizes[k] < rounding_of_axes) return &angles_read[k];
-  }
-  return nullptr;
-}
 
 // What a routine reads: time, mode, y − LENGTH and y′.
 using Read = std::array<double, 14>;
@@ -83,6 +57,15 @@ LinearWrench::LinearWrench(const LinearLaw& law)
 bool LinearWrench::turns() const {
   return routine || std::any_of(force.begin() + 3, force.end(), [](double f) { return f != 0; }) ||
          std::any_of(couplings.begin(), couplings.end(), [](const Coupling& k) { return k.row >= 3 || k.column >= 3; });
+}
+
+AnglesRead LinearWrench::reads_angles() const {
+  AnglesRead reads{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    reads[k] =
+        routine || std::ranges::any_of(couplings, [&](const Coupling& c) { return c.column == 3 + k && c.K != 0; });
+  }
+  return reads;
 }
 
 bool LinearWrench::is_central() const {
@@ -134,60 +117,19 @@ void check_moment_on_J(const Model& model, const ElementLabel& label, const Line
   }
 }
 
-void warn_of_undefined_angles(const Model& model, const ElementLabel& label, const LinearWrench& law,
-                              Diagnostics& diagnostics) {
-  const Angle* angle = undefined_angle(law, drawn_frame(model, law.i, law.j));
-  if (!angle) return;
-  const std::string name_I = model.marker(law.i).label->text(), name_J = model.marker(law.j).label->text();
-  diagnostics.warning(
-      "skew-axes", label.at,
-      fmt::format("{} reads the angle {} of {} in {}, which is not defined as drawn: the {} axis of {} "
-                  "is along the {} axis of {}",
-                  label.full_text(), angle->name, name_I, name_J, angle->axis_I, name_I, angle->axis_J, name_J),
-      "such a force is for small angles: give one of the markers the axes of the other");
-}
-
-RelativeDisplacement relative_displacement(const PairMotion& pair, std::span<const double> turns) {
-  const auto I = path::seeded<12>(pair.relative);
-  const auto angles = projected_angles(I);
-  // Relative angular velocity, ½ Σ a × a′ over the axes of I seen from J.
-  const auto half_sum = [&](std::size_t u, std::size_t v) {
-    Dual<12> sum(0.0);
-    for (const auto* a : {&I.x, &I.y, &I.z}) sum = sum + (*a)[u].value * (*a)[v].rate - (*a)[v].value * (*a)[u].rate;
-    return sum * 0.5;
-  };
-  const std::array<Dual<12>, 6> rates = {I.p.x.rate,     I.p.y.rate,     I.p.z.rate,
-                                         half_sum(1, 2), half_sum(2, 0), half_sum(0, 1)};
-  RelativeDisplacement d;
-  for (std::size_t r = 0; r < 6; ++r) {
-    const Dual<12>& y = r < 3 ? I.p[r].value : angles[r - 3].value;
-    d.y[r] = r < 3 ? y.value : unwrapped(y.value, turns[r - 3]);
-    d.rate[r] = rates[r].value;
-    for (std::size_t k = 0; k < 6; ++k) {
-      d.on_pose[r][k] = y.partial[k];
-      d.rate_on_pose[r][k] = rates[r].partial[k];
-      d.rate_on_rate[r][k] = rates[r].partial[6 + k];
-    }
-  }
-  return d;
-}
-
-CountedAngles::CountedAngles(Layout& layout, MarkerId i, MarkerId j)
-    : entries_{layout.count_turns(Measure::AX, i, j), layout.count_turns(Measure::AY, i, j),
-               layout.count_turns(Measure::AZ, i, j)} {}
-
 LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, const std::vector<ElementLabel>& labels,
                                        Layout& layout)
     : labels_(&labels) {
   laws_.reserve(laws.size());
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const LinearWrench& law = laws[k];
-    laws_.push_back({&law, &layout.marker(law.i), &layout.marker(law.j), CountedAngles(layout, law.i, law.j)});
+    laws_.push_back(
+        {&law, &layout.marker(law.i), &layout.marker(law.j), CountedAngles(layout, law.i, law.j, law.reads_angles())});
   }
 }
 
 PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, Partials wanted) {
-  const RelativeDisplacement d = relative_displacement(pair, p.angles.at(motion));
+  const RelativeDisplacement d = relative_displacement(pair, p.angles);
   RelativeWrench w;
   w.depends_on_rate = true;
   Array6 load = p.law->force;
@@ -223,17 +165,12 @@ void LinearWrenchKernel::undefined_values(const Motion& motion, UndefinedValues&
   for (std::size_t k = 0; k < laws_.size(); ++k) {
     const Placed& p = laws_[k];
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    if (const Angle* angle = undefined_angle(*p.law, pose_of(pair.relative))) {
-      undefined.add(
-          UndefinedValue{&(*labels_)[k],
-                         fmt::format("{}: the angle {} is not defined where the {} axis of I is along the {} axis "
-                                     "of J",
-                                     (*labels_)[k].full_text(), angle->name, angle->axis_I, angle->axis_J),
-                         false});
+    if (auto angle = undefined_angle((*labels_)[k], p.angles.read(), pair)) {
+      undefined.add(std::move(*angle));
       continue;
     }
     if (!p.law->routine) continue;
-    const Read read = read_by_routine(*p.law, relative_displacement(pair, p.angles.at(motion)), motion);
+    const Read read = read_by_routine(*p.law, relative_displacement(pair, p.angles), motion);
     bool has_values = true, has_slopes = true;
     for (std::size_t r = 0; r < 6; ++r) has_values = has_values && finite(p.law->routine->value(inputs(read), r));
     for (std::size_t r = 0; r < 6 && has_values; ++r) {

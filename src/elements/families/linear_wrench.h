@@ -4,8 +4,7 @@
 //     y = (DX, DY, DZ, AX, AY, AZ)(I,J) in the axes of J,   y′ = (velocity seen from J, relative angular velocity)
 //
 // or what a compiled routine of the user says of y − LENGTH and y′, if it has one. The opposite acts on J's body at the
-// origin of I, which is −F and −T − p × F at the origin of J. The angles are projections and count whole turns; y′
-// holds the angular velocity itself, not their rates.
+// origin of I, which is −F and −T − p × F at the origin of J (families/read_displacement.h).
 #pragma once
 
 #include <array>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "elements/families/markers.h"
+#include "elements/families/read_displacement.h"
 #include "expression/routine.h"
 #include "mechanics/kernel.h"
 #include "mechanics/wrench_source.h"
@@ -44,6 +44,8 @@ struct LinearWrench {
   explicit LinearWrench(const LinearLaw&);
   // Whether rotations or torques are in it; without them POINT_MASSes will do.
   bool turns() const;
+  // Those with a stiffness; a damper reads the angular velocity and no angle.
+  AnglesRead reads_angles() const;
   // Whether the force is along the line to the origin of J wherever I is at rest: K is the same in all directions, and
   // nothing is added. Then the opposite has no moment about that origin.
   bool is_central() const;
@@ -52,24 +54,6 @@ struct LinearWrench {
 // A law without torques whose opposite turns the body of J all the same, because it acts at the origin of I: reported
 // where that body is a POINT_MASS.
 void check_moment_on_J(const Model&, const ElementLabel&, const LinearWrench&, Diagnostics&);
-
-// Warns where the axes are drawn so that an angle which the force reads is not defined.
-void warn_of_undefined_angles(const Model&, const ElementLabel&, const LinearWrench&, Diagnostics&);
-
-// `turns` holds the total angles that AX, AY, AZ are unwrapped to.
-RelativeDisplacement relative_displacement(const PairMotion&, std::span<const double> turns);
-// Where the memory has AX, AY, AZ of marker i seen from j with all their turns.
-class CountedAngles {
- public:
-  CountedAngles(Layout&, MarkerId i, MarkerId j);
-  std::array<double, 3> at(const Motion& motion) const {
-    const auto total = [&](std::size_t k) { return motion.memory[static_cast<std::size_t>(entries_[k])]; };
-    return {total(0), total(1), total(2)};
-  }
-
- private:
-  std::array<std::int32_t, 3> entries_;
-};
 
 class LinearWrenchKernel final : public Kernel, public WrenchSource {
  public:
@@ -113,7 +97,9 @@ class LinearWrenchSet final : public TypedSet<LinearWrench> {
       check_pair(model, labels[k], elements[k].i, elements[k].j, {.rotation_of_I = turns, .rotation_of_J = turns},
                  diagnostics);
       if (!turns) check_moment_on_J(model, labels[k], elements[k], diagnostics);
-      if (turns && !diagnostics.has_errors()) warn_of_undefined_angles(model, labels[k], elements[k], diagnostics);
+      if (turns && !diagnostics.has_errors())
+        warn_of_undefined_angles(model, labels[k], elements[k].i, elements[k].j, elements[k].reads_angles(),
+                                 diagnostics);
     }
   }
   std::unique_ptr<Kernel> make_kernel(const Model&, Layout& layout) const override {

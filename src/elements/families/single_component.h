@@ -21,6 +21,7 @@ class SingleComponentSet final : public TypedSet<E> {
       const bool turns = E::acts_on_rotation;
       const PairRequirements needs{!e.action_only, turns, turns && !e.action_only};
       if (!check_pair(model, this->labels[k], e.i, e.j, needs, diagnostics)) continue;
+      if (e.direction() == Direction::along_line) warn_of_missing_line(model, this->labels[k], e.i, e.j, diagnostics);
       if (turns && !e.action_only) warn_of_skew_axes(model, this->labels[k], e.i, e.j, diagnostics);
     }
   }

@@ -5,7 +5,7 @@
 //     T = FORCE + K (L − LENGTH) + C L′        L: the sum of the distances from each marker to the next
 //
 // wherever that pulls; else it is slack, T = 0. Each of its spans pulls the two markers that it joins towards each
-// other with T. Where two of them meet a span has no direction, and the analysis says which.
+// other with T. Where two of them meet a span has no direction: unless the cable is slack, the analysis says which.
 #include <fmt/format.h>
 
 #include "elements/families/markers.h"
@@ -113,8 +113,9 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
     for (std::size_t at = 0; at < cables_.size(); ++at) {
       const Placed& p = cables_[at];
       const ElementLabel& label = (*labels_)[at];
+      if (std::vector<PairMotion> spans; look(p, motion, spans).is_slack()) continue;
       for (std::size_t k = 0; k + 1 < p.places.size(); ++k) {
-        if (norm(motion.point(p.places[k + 1]) - motion.point(p.places[k])) != 0.0) continue;
+        if (!markers_meet(pair_motion(motion, p.places[k + 1], p.places[k]))) continue;
         undefined.add(UndefinedValue{
             &label, fmt::format("markers {} and {} of {} coincide, the cable between them has no direction",
                                 p.cable.ids[k], p.cable.ids[k + 1], label.full_text())});
@@ -133,6 +134,9 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
     double law = 0, value = 0;
     double on_length = 0, on_rate = 0;
     bool is_damped = false;
+
+    // Nothing acts, along whatever line.
+    bool is_slack() const { return value == 0.0 && on_length == 0.0 && on_rate == 0.0; }
   };
 
   MarkerId marker(std::size_t w, std::size_t end) const {
@@ -145,7 +149,8 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
     Taylor length;
     for (std::size_t k = 0; k + 1 < p.places.size(); ++k) {
       spans.push_back(pair_motion(motion, p.places[k + 1], p.places[k]));
-      length += norm(spans.back().delta);
+      const Vec3<Taylor>& span = spans.back().delta;
+      length += markers_meet(spans.back()) ? Taylor(0.0, norm(rate(span)), 0.0) : norm(span);
     }
     const bool is_damped = c.damping != 0.0;
     const double law = c.preload + c.stiffness * (length.value - c.free_length) + c.damping * length.rate;
@@ -153,18 +158,21 @@ class CableKernel final : public Kernel, public WrenchSource, public SwitchSourc
   }
   // On the second marker of a span; its partials are those with the length of the span itself.
   static PairForce pull(const PairMotion& span, const Tension& t, Partials wanted) {
-    PairForce f = along_line(span, {-t.value, -t.on_length, -t.on_rate}, wanted);
+    PairForce f = t.is_slack()         ? around_origin({}, wanted)
+                  : markers_meet(span) ? without_direction(wanted)
+                                       : along_line(span, {-t.value, -t.on_length, -t.on_rate}, wanted);
     f.depends_on_velocity = t.is_damped;
     return f;
   }
   // How that of `span` changes with the length of another: δf = −u (K δd + C δd′) with δd′ = w·δΔ′ + w′·δΔ.
   static PairForce change(const PairMotion& span, const PairMotion& other, const Tension& t) {
-    const Vector u = value(span.delta) / norm(value(span.delta));
-    const Vec3<Taylor> w = other.delta / norm(other.delta);
     PairForce f;
     f.reaction = Reaction::at_J;
     f.components = Components::force;
     f.depends_on_velocity = t.is_damped;
+    if (t.is_slack()) return f;
+    const Vector u = value(span.delta) / norm(value(span.delta));
+    const Vec3<Taylor> w = other.delta / norm(other.delta);
     const Matrix3 on_delta = -outer(u, t.on_length * value(w) + t.on_rate * rate(w));
     const Matrix3 on_delta_rate = -t.on_rate * outer(u, value(w));
     f.force_on_position.origin_I = on_delta, f.force_on_position.origin_J = -on_delta;

@@ -150,8 +150,7 @@ class JournalKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
   };
   static RelativeDisplacement displacement_of(const PairMotion& pair) {
-    static constexpr std::array<double, 3> turns{};
-    return relative_displacement(pair, turns);
+    return relative_displacement(pair, CountedAngles{});
   }
   static PairForce force_of(const Journal& bearing, const PairMotion& pair, Partials wanted) {
     const RelativeDisplacement d = displacement_of(pair);

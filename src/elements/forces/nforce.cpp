@@ -10,6 +10,10 @@
 // the 6 n components; each is an algebraic unknown w with w − e = 0.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include "elements/controls/matrix.h"
 #include "elements/families/called_values.h"
 #include "elements/families/defined_unknown.h"
@@ -67,16 +71,26 @@ struct Law {
   std::vector<Expression> components;  // of a routine, in the place of those
 };
 
+// Angles of marker k that have a stiffness in any of the rows; a routine reads by functions of its own.
+AnglesRead angles_read(const Law& law, std::size_t k) {
+  AnglesRead read{};
+  for (std::size_t c = 0; c < 3 && !law.K.empty(); ++c) {
+    const auto column = std::span(law.K).subspan((6 * k + 3 + c) * law.size, law.size);
+    read[c] = std::ranges::any_of(column, [](double stiffness) { return stiffness != 0; });
+  }
+  return read;
+}
+
 class NforceKernel final : public Kernel, public WrenchSource {
  public:
   NforceKernel(const std::vector<Law>& laws, const std::vector<ElementLabel>& labels, Layout& layout)
       : layout_(layout), labels_(&labels) {
     for (const Law& law : laws) {
       Placed p{law, {}, layout.marker(law.j), {}, {}};
-      for (const MarkerId m : law.markers) {
-        p.I.push_back(layout.marker(m));
-        p.angles.emplace_back(layout, m, law.j);
-        wrenches_.emplace_back(laws_.size(), p.I.size() - 1);
+      for (std::size_t k = 0; k < law.markers.size(); ++k) {
+        p.I.push_back(layout.marker(law.markers[k]));
+        p.angles.emplace_back(layout, law.markers[k], law.j, angles_read(law, k));
+        wrenches_.emplace_back(laws_.size(), k);
       }
       for (std::size_t c = 0; c < law.components.size(); ++c)
         p.components.emplace_back(layout.add_algebraic(labels[laws_.size()], static_cast<std::int32_t>(c) + 1),
@@ -114,8 +128,16 @@ class NforceKernel final : public Kernel, public WrenchSource {
   }
 
   void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
-    for (std::size_t law = 0; law < laws_.size(); ++law)
-      for (const DefinedUnknown& c : laws_[law].components) c.find_undefined(motion, (*labels_)[law], undefined);
+    for (std::size_t law = 0; law < laws_.size(); ++law) {
+      const Placed& p = laws_[law];
+      const ElementLabel& label = (*labels_)[law];
+      for (const DefinedUnknown& c : p.components) c.find_undefined(motion, label, undefined);
+      for (std::size_t k = 0; k < p.I.size(); ++k) {
+        const std::string I = layout_.marker_label(p.law.markers[k]).text();
+        if (auto angle = undefined_angle(label, p.angles[k].read(), pair_motion(motion, p.I[k], p.J), I))
+          undefined.add(std::move(*angle));
+      }
+    }
   }
 
   // A wrench for each marker.
@@ -168,7 +190,7 @@ class NforceKernel final : public Kernel, public WrenchSource {
     at.pairs.resize(n), at.displacements.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       at.pairs[k] = pair_motion(motion, p.I[k], p.J);
-      at.displacements[k] = relative_displacement(at.pairs[k], p.angles[k].at(motion));
+      at.displacements[k] = relative_displacement(at.pairs[k], p.angles[k]);
     }
   }
   // What acts on marker k.
@@ -281,6 +303,8 @@ class NforceSet final : public TypedSet<Nforce> {
       law.force = take(n.force, "FORCE", 1);
       law.length.resize(law.size, 0.0);
       law.force.resize(law.size, 0.0);
+      for (std::size_t m = 0; m < n.markers.size() && !diagnostics.has_errors(); ++m)
+        warn_of_undefined_angles(model, labels[k], n.markers[m], n.j, angles_read(law, m), diagnostics);
       laws_.push_back(std::move(law));
     }
   }

@@ -5,8 +5,8 @@
 //     F = FORCE − K (d − LENGTH) − C d′          d = |p_JI|, the distance from J to I
 //
 // F > 0 pushes the markers apart. It acts on I along +p_JI and on J along −p_JI. At d = 0 the line has no
-// direction: a spring that is free of force there (LENGTH and FORCE 0) and has no damper is −K p_JI and needs none, of
-// any other the analysis says which markers met.
+// direction: a spring that is free of force there (LENGTH and FORCE 0) and has no damper is −K p_JI and needs none. A
+// damper at rest is no force either, but has no derivative; of any other the analysis says which markers met.
 #include "elements/families/line_force.h"
 
 namespace dynalin {
@@ -42,6 +42,7 @@ struct SpringDamper {
       {.name = "TORQUE", .slot = &SpringDamper::elsewhere, .help = "goes with ROTATIONAL"},
   }};
 
+  bool needs_direction() const { return damping != 0 || preload + stiffness * free_length != 0; }
   template <class S>
   S along_line(const TimeTaylor<S>& d) const {
     return preload - stiffness * (d.value - free_length) - damping * d.rate;
