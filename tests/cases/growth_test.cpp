@@ -88,6 +88,29 @@ TEST_F(Growth, statics_of_a_force_that_sums_very_many_values_are_quick) {
   EXPECT_LT(seconds(), most_seconds);
 }
 
+// What is out of the model is told once for all edits that made a model together, and after others anew.
+TEST_F(Growth, very_many_edits_take_as_long_as_what_they_change) {
+  constexpr int count = 8000;
+  std::string springs, commands;
+  for (int k = 1; k <= count; ++k) {
+    const std::string id = std::to_string(k);
+    springs += "SPRINGDAMPER/" + id + ", TRANSLATIONAL, I=3, J=1, K=1, LENGTH=1\n";
+    commands += "DEACTIVATE/SPRINGDAMPER, " + (k % 2 ? "ID=" + id : "RANGE=" + id + "," + id) + "\n";
+  }
+  const RunResult r = run(slider(0, "-8*(DZ(3,1)-1)", springs),
+                          commands + "LINEAR/EIGENSOL\nACTIVATE/SPRINGDAMPER, RANGE=7,14\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}});
+  expect_eigenvalues(r.eigenvalues(1), {{0, std::sqrt(8.0) / (2 * std::numbers::pi)}});
+  for (const char* line : {"   Deactivated SPRINGDAMPER/1,", "   Deactivated SPRINGDAMPER/8000,",
+                           "   Activated SPRINGDAMPER/7.", "   Activated SPRINGDAMPER/14."}) {
+    const std::size_t at = r.message.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    EXPECT_EQ(r.message.find(line, at + 1), std::string::npos) << line;
+  }
+  EXPECT_LT(seconds(), most_seconds);
+}
+
 TEST_F(Growth, near_ids_are_named_as_ever) {
   const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
   const RunResult r =
