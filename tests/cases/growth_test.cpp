@@ -88,6 +88,17 @@ TEST_F(Growth, statics_of_a_force_that_sums_very_many_values_are_quick) {
   EXPECT_LT(seconds(), most_seconds);
 }
 
+// Each list Y is another curve, and all are the line y = x.
+TEST_F(Growth, a_statement_of_very_many_repeated_arguments_is_read_quickly) {
+  constexpr int curves = 100'000;
+  std::string family = "SPLINE/1, X=-2,-1,0,1,2";
+  for (int k = 0; k < curves; ++k) family += (k % 4 ? ", Y=" : "\n, Y=") + std::to_string(k) + ",-2,-1,0,1,2";
+  const RunResult r = run(slider(0, "-8*(AKISPL(DZ(3,1),0.5,1)-1)", family + "\n"), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}});
+  EXPECT_LT(seconds(), most_seconds);
+}
+
 // What is out of the model is told once for all edits that made a model together, and after others anew.
 TEST_F(Growth, very_many_edits_take_as_long_as_what_they_change) {
   constexpr int count = 8000;
