@@ -122,6 +122,28 @@ TEST_F(Growth, very_many_edits_take_as_long_as_what_they_change) {
   EXPECT_LT(seconds(), most_seconds);
 }
 
+// Body k is held by 4 k in each of its coordinates, and nothing ties it to the others.
+TEST_F(Growth, a_force_on_very_many_markers_costs_what_its_matrix_holds) {
+  constexpr int count = 400;
+  std::string text = "many\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\n", markers, places, values;
+  for (int k = 1; k <= count; ++k) {
+    const std::string marker = std::to_string(1000 + k), part = std::to_string(k + 1);
+    text += "PART/" + part + ", MASS=1, IP=1,1,1, CM=" + marker + "\nMARKER/" + marker + ", PART=" + part + "\n";
+    markers += (k > 1 ? "\n, " : "") + marker;
+    for (int c = 0; c < 6; ++c) {
+      const std::string comma = k == 1 && c == 0 ? "" : c == 0 ? "\n, " : ", ";
+      places += comma + std::to_string(6 * (k - 1) + c + 1), values += comma + std::to_string(4 * k);
+    }
+  }
+  const std::string size = std::to_string(6 * count);
+  text += "MATRIX/1, SPARSE, ROWS=" + size + ", COLUMNS=" + size + ", I=" + places + "\n, J=" + places +
+          "\n, VALUES=" + values + "\nNFORCE/1, J=1, KMATRIX=1, IMARKERS=" + markers + "\nEND\n";
+  const RunResult r = run(text, "LINEAR/EIGENSOL, NMODES=6\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), std::vector<std::complex<double>>(6, {0, 2 / (2 * std::numbers::pi)}));
+  EXPECT_LT(seconds(), most_seconds);
+}
+
 TEST_F(Growth, near_ids_are_named_as_ever) {
   const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
   const RunResult r =
