@@ -82,8 +82,9 @@ class RunState {
   void say_undefined_requests(const System&, const OperatingPoint&, const PointRequests&);
   // The point that a simulation has ended at; the files of steps have it already.
   void show_where_it_ended();
-  bool halted = false;  // by a SENSOR: no further command is run
-  bool shown = false;   // the point, where points are shown
+  bool halted = false;                     // by a SENSOR: no further command is run
+  bool shown = false;                      // the point, where points are shown
+  std::optional<std::size_t> inactive_of;  // the stage whose inactive elements have been said
 
  private:
   std::set<RequestName> undefined_requests_;

@@ -256,16 +256,24 @@ void DatasetEditor::switch_range(const WrittenArgument& range, std::string_view 
         fmt::format("RANGE begins at {} and ends before, at {}", ends->front().value, ends->back().value));
     return;
   }
+  const std::int64_t first = ends->front().value, last = ends->back().value;
   bool any = false;
-  for (Statement& s : out_->statements) {
-    if (s.name != statement || !s.id || *s.id < ends->front().value || *s.id > ends->back().value) continue;
-    s.inactive = inactive;
-    any = true;
+  const auto change = [&](Statement& s) { s.inactive = inactive, any = true; };
+  // Of few ids each is found by itself, so that many commands do not go through all statements each.
+  constexpr std::size_t lookup_in_comparisons = 8;
+  const auto ids = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
+  if (ids < out_->statements.size() / lookup_in_comparisons) {
+    for (std::int64_t id = first; id <= last; ++id) {
+      if (Statement* s = find(statement, id)) change(*s);
+    }
+  } else {
+    for (Statement& s : out_->statements) {
+      if (s.name == statement && s.id && *s.id >= first && *s.id <= last) change(s);
+    }
   }
   if (!any)
-    diagnostics_.error(
-        "unknown-element", range.value_span(),
-        fmt::format("no {} has an id from {} to {}", statement, ends->front().value, ends->back().value));
+    diagnostics_.error("unknown-element", range.value_span(),
+                       fmt::format("no {} has an id from {} to {}", statement, first, last));
 }
 
 bool DatasetEditor::read_class(const WrittenArgument& w, const Statement& command, std::string_view& statement,

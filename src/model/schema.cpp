@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
 
 #include "base/enumeration.h"
 
@@ -213,9 +214,9 @@ namespace {
 // The argument whose value ends right before a bare word, without a comma between them.
 const WrittenArgument* goes_on_from(const WrittenArgument& word, const ElementReader& r) {
   const auto& all = r.statement().arguments;
-  const auto at = std::find_if(all.begin(), all.end(), [&](const WrittenArgument& w) { return &w == &word; });
-  if (word.has_value || at == all.end() || at == all.begin()) return nullptr;
-  const WrittenArgument& before = *std::prev(at);
+  const WrittenArgument *const first = all.data(), *const end_of_all = first + all.size();
+  if (word.has_value || !std::less<>()(first, &word) || !std::less<>()(&word, end_of_all)) return nullptr;
+  const WrittenArgument& before = *(&word - 1);
   if (!before.has_value || before.name.source != word.name.source) return nullptr;
   const Span value = before.value_span();
   const std::uint32_t end = value.offset + value.length;
@@ -269,13 +270,13 @@ std::optional<std::size_t> find_argument(const WrittenArgument& written, std::sp
     return std::nullopt;
   }
   const ArgumentInfo& info = infos[*k];
-  for (const auto& a : r.assignments) {
-    if (a.name == info.name && !info.repeats) {
-      r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, owner_of(r)));
-      return std::nullopt;
-    }
+  // One that repeats is known by its first, so that there are never more to search than the statement has arguments.
+  if (!r.given(info.name)) {
+    r.assignments.push_back({info.name, written.name});
+  } else if (!info.repeats) {
+    r.error("duplicate-argument", written.name, fmt::format("{} of {} is given twice", info.name, owner_of(r)));
+    return std::nullopt;
   }
-  r.assignments.push_back({info.name, written.name});
   if (info.is_flag && written.has_value) {
     r.error("unexpected-value", written.name, fmt::format("{} of {} takes no value", info.name, owner));
     return std::nullopt;

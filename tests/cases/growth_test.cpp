@@ -113,6 +113,62 @@ TEST_F(Growth, statics_beside_very_many_differential_states_are_quick) {
   EXPECT_LT(seconds(), most_seconds);
 }
 
+// Each list Y is another curve, and all are the line y = x.
+TEST_F(Growth, a_statement_of_very_many_repeated_arguments_is_read_quickly) {
+  constexpr int curves = 100'000;
+  std::string family = "SPLINE/1, X=-2,-1,0,1,2";
+  for (int k = 0; k < curves; ++k) family += (k % 4 ? ", Y=" : "\n, Y=") + std::to_string(k) + ",-2,-1,0,1,2";
+  const RunResult r = run(slider(0, "-8*(AKISPL(DZ(3,1),0.5,1)-1)", family + "\n"), "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}});
+  EXPECT_LT(seconds(), most_seconds);
+}
+
+// What is out of the model is told once for all edits that made a model together, and after others anew.
+TEST_F(Growth, very_many_edits_take_as_long_as_what_they_change) {
+  constexpr int count = 8000;
+  std::string springs, commands;
+  for (int k = 1; k <= count; ++k) {
+    const std::string id = std::to_string(k);
+    springs += "SPRINGDAMPER/" + id + ", TRANSLATIONAL, I=3, J=1, K=1, LENGTH=1\n";
+    commands += "DEACTIVATE/SPRINGDAMPER, " + (k % 2 ? "ID=" + id : "RANGE=" + id + "," + id) + "\n";
+  }
+  const RunResult r = run(slider(0, "-8*(DZ(3,1)-1)", springs),
+                          commands + "LINEAR/EIGENSOL\nACTIVATE/SPRINGDAMPER, RANGE=7,14\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), {{0, 2 / (2 * std::numbers::pi)}});
+  expect_eigenvalues(r.eigenvalues(1), {{0, std::sqrt(8.0) / (2 * std::numbers::pi)}});
+  for (const char* line : {"   Deactivated SPRINGDAMPER/1,", "   Deactivated SPRINGDAMPER/8000,",
+                           "   Activated SPRINGDAMPER/7.", "   Activated SPRINGDAMPER/14."}) {
+    const std::size_t at = r.message.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    EXPECT_EQ(r.message.find(line, at + 1), std::string::npos) << line;
+  }
+  EXPECT_LT(seconds(), most_seconds);
+}
+
+// Body k is held by 4 k in each of its coordinates, and nothing ties it to the others.
+TEST_F(Growth, a_force_on_very_many_markers_costs_what_its_matrix_holds) {
+  constexpr int count = 400;
+  std::string text = "many\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\n", markers, places, values;
+  for (int k = 1; k <= count; ++k) {
+    const std::string marker = std::to_string(1000 + k), part = std::to_string(k + 1);
+    text += "PART/" + part + ", MASS=1, IP=1,1,1, CM=" + marker + "\nMARKER/" + marker + ", PART=" + part + "\n";
+    markers += (k > 1 ? "\n, " : "") + marker;
+    for (int c = 0; c < 6; ++c) {
+      const std::string comma = k == 1 && c == 0 ? "" : c == 0 ? "\n, " : ", ";
+      places += comma + std::to_string(6 * (k - 1) + c + 1), values += comma + std::to_string(4 * k);
+    }
+  }
+  const std::string size = std::to_string(6 * count);
+  text += "MATRIX/1, SPARSE, ROWS=" + size + ", COLUMNS=" + size + ", I=" + places + "\n, J=" + places +
+          "\n, VALUES=" + values + "\nNFORCE/1, J=1, KMATRIX=1, IMARKERS=" + markers + "\nEND\n";
+  const RunResult r = run(text, "LINEAR/EIGENSOL, NMODES=6\n");
+  ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
+  expect_eigenvalues(r.eigenvalues(0), std::vector<std::complex<double>>(6, {0, 2 / (2 * std::numbers::pi)}));
+  EXPECT_LT(seconds(), most_seconds);
+}
+
 TEST_F(Growth, near_ids_are_named_as_ever) {
   const std::string markers = "MARKER/112, PART=2\nMARKER/1211, PART=2\nMARKER/21, PART=2\nMARKER/5121, PART=2\n";
   const RunResult r =

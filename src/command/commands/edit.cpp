@@ -6,7 +6,11 @@
 
 namespace dynalin::commands {
 
-StudyResult<void> Edit::run(RunState& run) const {
+namespace {
+
+// Neighbouring edits have made one model together: what it takes out is told once, at the first of them.
+void tell_what_is_inactive(RunState& run) {
+  if (std::exchange(run.inactive_of, run.stage) == run.stage) return;
   const std::set<std::string> before = std::exchange(run.inactive, {});
   for (const auto& set : run.system().model().sets) {
     if (set->active) continue;
@@ -22,6 +26,12 @@ StudyResult<void> Edit::run(RunState& run) const {
   for (const std::string& name : before) {
     if (!run.inactive.contains(name)) fmt::print(run.message, "   Activated {}.\n", name);
   }
+}
+
+}  // namespace
+
+StudyResult<void> Edit::run(RunState& run) const {
+  tell_what_is_inactive(run);
   if (!tell(run)) run.json.add_plain(run.command, run.time());
   return {};
 }

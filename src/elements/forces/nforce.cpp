@@ -62,21 +62,49 @@ struct Nforce {
   }};
 };
 
-// Dense 6 n × 6 n tables, by columns.
+// What acts on one marker by the displacement of another: 6 × 6.
+struct CoupledBlock {
+  std::size_t by;  // of the markers
+  std::array<std::array<double, 6>, 6> K, C;
+};
+
 struct Law {
   std::vector<MarkerId> markers;
   MarkerId j;
-  std::size_t size = 0;
-  std::vector<double> K, C, length, force;
-  std::vector<Expression> components;  // of a routine, in the place of those
+  std::vector<std::vector<CoupledBlock>> blocks{};  // on each marker, those with anything but zeros
+  std::vector<double> length{}, force{};
+  std::vector<Expression> components{};  // of a routine, in the place of those
 };
 
-// Angles of marker k that have a stiffness in any of the rows; a routine reads by functions of its own.
-AnglesRead angles_read(const Law& law, std::size_t k) {
-  AnglesRead read{};
-  for (std::size_t c = 0; c < 3 && !law.K.empty(); ++c) {
-    const auto column = std::span(law.K).subspan((6 * k + 3 + c) * law.size, law.size);
-    read[c] = std::ranges::any_of(column, [](double stiffness) { return stiffness != 0; });
+// Of tables of 6 n × 6 n by columns, C may be empty.
+std::vector<std::vector<CoupledBlock>> blocks_of(const std::vector<double>& K, const std::vector<double>& C,
+                                                 std::size_t n) {
+  std::vector<std::vector<CoupledBlock>> rows(n);
+  for (std::size_t l = 0; l < n; ++l) {
+    for (std::size_t k = 0; k < n; ++k) {
+      CoupledBlock b{l, {}, {}};
+      bool any = false;
+      for (std::size_t c = 0; c < 6; ++c) {
+        for (std::size_t r = 0; r < 6; ++r) {
+          const std::size_t at = (6 * l + c) * 6 * n + 6 * k + r;
+          b.K[r][c] = K[at], b.C[r][c] = C.empty() ? 0.0 : C[at];
+          any = any || b.K[r][c] != 0 || b.C[r][c] != 0;
+        }
+      }
+      if (any) rows[k].push_back(b);
+    }
+  }
+  return rows;
+}
+
+// Angles of each marker that have a stiffness in any of the rows; a routine reads by functions of its own.
+std::vector<AnglesRead> angles_read(const Law& law) {
+  std::vector<AnglesRead> read(law.markers.size());
+  for (const auto& row : law.blocks) {
+    for (const CoupledBlock& b : row) {
+      for (std::size_t c = 0; c < 3; ++c)
+        read[b.by][c] = read[b.by][c] || std::ranges::any_of(b.K, [&](const auto& by) { return by[3 + c] != 0; });
+    }
   }
   return read;
 }
@@ -87,9 +115,10 @@ class NforceKernel final : public Kernel, public WrenchSource {
       : layout_(layout), labels_(&labels) {
     for (const Law& law : laws) {
       Placed p{law, {}, layout.marker(law.j), {}, {}};
+      const std::vector<AnglesRead> angles = angles_read(law);
       for (std::size_t k = 0; k < law.markers.size(); ++k) {
         p.I.push_back(layout.marker(law.markers[k]));
-        p.angles.emplace_back(layout, law.markers[k], law.j, angles_read(law, k));
+        p.angles.emplace_back(layout, law.markers[k], law.j, angles[k]);
         wrenches_.emplace_back(laws_.size(), k);
       }
       for (std::size_t c = 0; c < law.components.size(); ++c)
@@ -112,7 +141,8 @@ class NforceKernel final : public Kernel, public WrenchSource {
       const std::size_t n = p.I.size();
       for (const DefinedUnknown& c : p.components) c.add_equation(motion, eq);
       PairScratch& at = eq.pair_scratch;
-      look(p, motion, at);
+      make_room(p, at);
+      for (std::size_t k = 0; k < n; ++k) look(p, k, motion, at);
       for (std::size_t k = 0; k < n; ++k) {
         // The force itself turns with J and its arms move; each marker adds what its displacement changes.
         apply(at.pairs[k], spread(at.pairs[k], total(p, k, motion, at), eq.wanted_partials()), eq);
@@ -121,8 +151,8 @@ class NforceKernel final : public Kernel, public WrenchSource {
           apply_column(at.pairs[k], force, torque, Reaction::at_I, PartialBy::algebraic, column, eq);
         });
         if (!p.components.empty()) continue;
-        for (std::size_t l = 0; l < n; ++l)
-          apply_cross_partials(at.pairs[k], at.pairs[l], spread(at.pairs[l], change(p, k, l, at), Partials::yes), eq);
+        for (const CoupledBlock& b : p.law.blocks[k])
+          apply_cross_partials(at.pairs[k], at.pairs[b.by], spread(at.pairs[b.by], change(b, at), Partials::yes), eq);
       }
     }
   }
@@ -150,7 +180,11 @@ class NforceKernel final : public Kernel, public WrenchSource {
     const auto [at, k] = wrenches_[w];
     const Placed& p = laws_[at];
     PairScratch& all = out.scratch;
-    look(p, motion, all);
+    make_room(p, all);
+    look(p, k, motion, all);
+    if (p.components.empty()) {
+      for (const CoupledBlock& b : p.law.blocks[k]) look(p, b.by, motion, all);
+    }
     out.pair = all.pairs[k];
     out.force = spread(out.pair, total(p, k, motion, all), wanted);
     if (wanted == Partials::no) return;
@@ -158,9 +192,9 @@ class NforceKernel final : public Kernel, public WrenchSource {
       out.scalars.push_back({PartialBy::algebraic, column, force, torque});
     });
     if (!p.components.empty()) return;
-    for (std::size_t l = 0; l < p.I.size(); ++l) {
-      const PairForce f = spread(all.pairs[l], change(p, k, l, all), Partials::yes);
-      for_each_block(all.pairs[l], layout_, [&](const PairBlock& block) {
+    for (const CoupledBlock& b : p.law.blocks[k]) {
+      const PairForce f = spread(all.pairs[b.by], change(b, all), Partials::yes);
+      for_each_block(all.pairs[b.by], layout_, [&](const PairBlock& block) {
         const BlockPartials on = partials_by(block, f);
         for (std::size_t c = 0; c < block.count; ++c) {
           const std::int32_t column = block.column + static_cast<std::int32_t>(c);
@@ -180,18 +214,13 @@ class NforceKernel final : public Kernel, public WrenchSource {
     std::vector<DefinedUnknown> components{};
   };
   const Law& law_of(std::size_t w) const { return laws_[wrenches_[w].first].law; }
-  static std::pair<double, double> entry(const Law& law, std::size_t row, std::size_t column) {
-    const std::size_t at = column * law.size + row;
-    return {law.K[at], law.C.empty() ? 0.0 : law.C[at]};
+  static void make_room(const Placed& p, PairScratch& at) {
+    at.pairs.resize(p.I.size()), at.displacements.resize(p.I.size());
   }
-  // Takes the motions of the pairs and their displacements.
-  static void look(const Placed& p, const Motion& motion, PairScratch& at) {
-    const std::size_t n = p.I.size();
-    at.pairs.resize(n), at.displacements.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      at.pairs[k] = pair_motion(motion, p.I[k], p.J);
-      at.displacements[k] = relative_displacement(at.pairs[k], p.angles[k]);
-    }
+  // Takes the motion of marker k and its displacement.
+  static void look(const Placed& p, std::size_t k, const Motion& motion, PairScratch& at) {
+    at.pairs[k] = pair_motion(motion, p.I[k], p.J);
+    at.displacements[k] = relative_displacement(at.pairs[k], p.angles[k]);
   }
   // What acts on marker k.
   static RelativeWrench total(const Placed& p, std::size_t k, const Motion& motion, const PairScratch& at) {
@@ -201,11 +230,10 @@ class NforceKernel final : public Kernel, public WrenchSource {
     if (!p.components.empty()) return w;
     for (std::size_t r = 0; r < 6; ++r) {
       double sum = p.law.force[6 * k + r];
-      for (std::size_t l = 0; l < p.I.size(); ++l) {
-        for (std::size_t c = 0; c < 6; ++c) {
-          const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
-          sum -= K * (at.displacements[l].y[c] - p.law.length[6 * l + c]) + C * at.displacements[l].rate[c];
-        }
+      for (const CoupledBlock& b : p.law.blocks[k]) {
+        const RelativeDisplacement& d = at.displacements[b.by];
+        for (std::size_t c = 0; c < 6; ++c)
+          sum -= b.K[r][c] * (d.y[c] - p.law.length[6 * b.by + c]) + b.C[r][c] * d.rate[c];
       }
       (r < 3 ? w.force[r] : w.torque[r - 3]) = sum;
     }
@@ -221,14 +249,14 @@ class NforceKernel final : public Kernel, public WrenchSource {
       visit(p.components[6 * k + r].column(), r < 3 ? e : Vector{}, r < 3 ? Vector{} : e);
     }
   }
-  // How that changes with the displacement of marker l.
-  static RelativeWrench change(const Placed& p, std::size_t k, std::size_t l, const PairScratch& at) {
+  // How that changes with the displacement of another marker.
+  static RelativeWrench change(const CoupledBlock& b, const PairScratch& at) {
     RelativeWrench w;
     w.depends_on_rate = true;
-    const RelativeDisplacement& d = at.displacements[l];
+    const RelativeDisplacement& d = at.displacements[b.by];
     for (std::size_t r = 0; r < 6; ++r) {
       for (std::size_t c = 0; c < 6; ++c) {
-        const auto [K, C] = entry(p.law, 6 * k + r, 6 * l + c);
+        const double K = b.K[r][c], C = b.C[r][c];
         for (std::size_t i = 0; i < 6; ++i) {
           w.on_pose[r][i] -= K * d.on_pose[c][i] + C * d.rate_on_pose[c][i];
           w.on_rate[r][i] -= C * d.rate_on_rate[c][i];
@@ -274,37 +302,40 @@ class NforceSet final : public TypedSet<Nforce> {
   void finish(Model& model, Diagnostics& diagnostics) override {
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const Nforce& n = elements[k];
-      Law law{n.markers, n.j, 6 * n.markers.size(), {}, {}, {}, {}, {}};
+      Law law{n.markers, n.j};
+      const std::size_t size = 6 * n.markers.size();
       for (const MarkerId i : n.markers)
         check_pair(model, labels[k], i, n.j, {.rotation_of_I = true, .rotation_of_J = true}, diagnostics);
       const auto take = [&](MatrixRef ref, std::string_view word, std::size_t columns) {
         if (!ref.valid()) return std::vector<double>();
         const Matrix& m = *model.get<Matrix>(ref);
-        if (m.rows != law.size || m.columns != columns) {
+        if (m.rows != size || m.columns != columns) {
           diagnostics.error("wrong-size", labels[k].at,
-                            fmt::format("{} of {} must be {} × {}, {} is {} × {}", word, labels[k].text(), law.size,
+                            fmt::format("{} of {} must be {} × {}, {} is {} × {}", word, labels[k].text(), size,
                                         columns, model.label(ref).text(), m.rows, m.columns));
-          return std::vector<double>(law.size * columns, 0.0);
+          return std::vector<double>(size * columns, 0.0);
         }
         return m.values;
       };
       if (!n.stiffness.valid()) {
-        law.components = values_of_routine(n.function, law.size);
+        law.components = values_of_routine(n.function, size);
         laws_.push_back(std::move(law));
         continue;
       }
-      law.K = take(n.stiffness, "KMATRIX", law.size);
-      law.C = take(n.damping, "CMATRIX", law.size);
+      const std::vector<double> K = take(n.stiffness, "KMATRIX", size);
+      std::vector<double> C = take(n.damping, "CMATRIX", size);
       if (n.ratio) {
-        law.C = law.K;
-        for (double& v : law.C) v *= *n.ratio;
+        C = K;
+        for (double& v : C) v *= *n.ratio;
       }
+      law.blocks = blocks_of(K, C, n.markers.size());
       law.length = take(n.length, "LENGTH", 1);
       law.force = take(n.force, "FORCE", 1);
-      law.length.resize(law.size, 0.0);
-      law.force.resize(law.size, 0.0);
+      law.length.resize(size, 0.0);
+      law.force.resize(size, 0.0);
+      const std::vector<AnglesRead> angles = angles_read(law);
       for (std::size_t m = 0; m < n.markers.size() && !diagnostics.has_errors(); ++m)
-        warn_of_undefined_angles(model, labels[k], n.markers[m], n.j, angles_read(law, m), diagnostics);
+        warn_of_undefined_angles(model, labels[k], n.markers[m], n.j, angles[m], diagnostics);
       laws_.push_back(std::move(law));
     }
   }
