@@ -105,8 +105,9 @@ TEST_F(MissingLines, of_a_force_stop_the_analysis_by_name) {
 
 // The force that others read changes as the one that acts.
 TEST_F(MissingLines, are_the_same_to_who_reads_the_force) {
-  const RunResult r = run(mounted(sforce("-3*DM(20,1)") + "\nVARIABLE/7, FUNCTION=SFORCE(9,0,2,1)\nPOUTPUT/1, VARIABLES=7"),
-                          "LINEAR/STATEMAT, POUTPUT=1, FILE=m\n");
+  const RunResult r =
+      run(mounted(sforce("-3*DM(20,1)") + "\nVARIABLE/7, FUNCTION=SFORCE(9,0,2,1)\nPOUTPUT/1, VARIABLES=7"),
+          "LINEAR/STATEMAT, POUTPUT=1, FILE=m\n");
   ASSERT_EQ(r.status, 0) << r.err;
   std::map<std::string, double> by;
   for (std::size_t k = 0; k < r.labels(0).size(); ++k)
