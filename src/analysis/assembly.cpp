@@ -111,23 +111,30 @@ Stopped stop_at_ends(const Layout& layout, OperatingPoint& op, const Eigen::Vect
 // The rows at the point that an assembly has come to, and what it remembers of those before.
 class Assembly {
  public:
-  Assembly(const System& system, OperatingPoint from, const HeldStarts& starts, Ends ends,
-           const std::vector<bool>& held)
+  struct Ways {
+    const HeldStarts& starts;
+    Ends ends;
+    const std::vector<bool>& held;
+    const Progress& progress;
+  };
+  Assembly(const System& system, OperatingPoint from, const Ways& ways)
       : system_(system),
         layout_(system.layout()),
-        starts_(starts),
-        ends_(ends),
-        held_(held),
+        starts_(ways.starts),
+        ends_(ways.ends),
+        held_(ways.held),
+        progress_(ways.progress),
         op_(std::move(from)),
         first_memory_(op_.memory),
         drawn_shape_(op_.extra),
         limits_{std::min(settings().rotation_limit.value_or(largest_turn), most_told),
                 settings().translation_limit.value_or(std::numeric_limits<double>::infinity())},
         most_(settings().iteration_limit.value_or(position_iterations)) {
-    rows_.resize(layout_, layout_.row_count() + starts.size());
+    rows_.resize(layout_, layout_.row_count() + starts_.size());
   }
 
   Result<OperatingPoint> run() {
+    progress_.tell("assembly");
     // The last point is looked at as well.
     for (std::int64_t iteration = 0; iteration <= most_; ++iteration) {
       evaluate();
@@ -264,6 +271,7 @@ class Assembly {
     history_.push_back(std::isfinite(v.relative)
                            ? fmt::format("iteration {}: largest violation {:.3e}", iteration, v.relative)
                            : fmt::format("iteration {}: a constraint is no finite number", iteration));
+    progress_.tell([&] { return "assembly: " + history_.back(); });
   }
 
   tl::unexpected<Failure> failure(std::string message, std::string_view code) const {
@@ -298,6 +306,7 @@ class Assembly {
   const HeldStarts& starts_;
   const Ends ends_;
   const std::vector<bool>& held_;
+  const Progress& progress_;
   OperatingPoint op_;
   ConstraintRows rows_;
   const Memory first_memory_;
@@ -315,8 +324,8 @@ class Assembly {
 }  // namespace
 
 Result<OperatingPoint> assemble(const System& system, OperatingPoint from, const HeldStarts& starts, Ends ends,
-                                const std::vector<bool>& held) {
-  return Assembly(system, std::move(from), starts, ends, held).run();
+                                const Progress& progress, const std::vector<bool>& held) {
+  return Assembly(system, std::move(from), {starts, ends, held, progress}).run();
 }
 
 }  // namespace dynalin

@@ -15,7 +15,7 @@ using HeldStarts = std::vector<bool>;
 
 // `held` coordinates stay; where it is empty none has to. Fails where constraints contradict each other, have no finite
 // value, or are not met after as many steps as IC allows.
-Result<OperatingPoint> assemble(const System&, OperatingPoint from, const HeldStarts&, Ends,
+Result<OperatingPoint> assemble(const System&, OperatingPoint from, const HeldStarts&, Ends, const Progress& = {},
                                 const std::vector<bool>& held = {});
 
 }  // namespace dynalin

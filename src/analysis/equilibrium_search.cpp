@@ -87,6 +87,7 @@ bool asked_for(StaticEquations& equations, OperatingPoint& op, const StaticsOpti
                Findings& findings) {
   if (!options.original && !options.motion) return false;
   const OperatingPoint first = op;
+  history.begin(options.original ? "Newton's method" : "damped motion");
   const FirstFreedoms loose = freedoms_at(equations, first);
   const bool found = options.original ? iterate_by_newton(equations, op, *options.original, history) &&
                                             Descent(equations, options, history).polish(op, loose)
@@ -114,6 +115,7 @@ Downhill off_saddles(StaticEquations& equations, const OperatingPoint& found, co
                      const StaticsOptions& options, StaticHistory& history, Findings& findings) {
   constexpr int most_searches = 12;
   const System& system = equations.system();
+  history.begin("saddles");
   Downhill last{found};
   std::optional<Eigen::VectorXd> step = step_off_saddle(equations, found, drawn);
   OperatingPoint op = found;
@@ -152,7 +154,7 @@ EquilibriumSearch::EquilibriumSearch(const System& system, OperatingPoint drawn,
       report_(report),
       findings_(findings),
       equations_(system),
-      history_(options.progress),
+      history_(options.progress, options.told.of("static equilibrium")),
       descent_(equations_, options, history_),
       op_(std::move(drawn)) {
   settle_after_motion(equations_, op_);
@@ -210,6 +212,7 @@ bool EquilibriumSearch::is_of_this_mechanism() {
 }
 
 void EquilibriumSearch::search_downhill() {
+  history_.begin("downhill");
   op_ = drawn_;
   found_ = descent_.run(op_) && is_of_this_mechanism();
   lowest_ = nearest_ = descent_.lowest();
@@ -259,6 +262,7 @@ void EquilibriumSearch::descend(OperatingPoint start) {
 
 void EquilibriumSearch::search_by_other_ways() {
   const auto reduce = [&](StepsMay may) {
+    history_.begin(may == StepsMay::climb ? "least squares that may climb" : "least squares");
     for (const OperatingPoint* start : {&lowest_, &drawn_}) {
       OperatingPoint least = *start;
       if (may_go_on() && reduce_imbalance(equations_, least, 100, may)) descend(std::move(least));
@@ -266,6 +270,7 @@ void EquilibriumSearch::search_by_other_ways() {
   };
   reduce(StepsMay::fall);
   if (may_go_on()) {
+    history_.begin("Newton's method");
     OperatingPoint at = drawn_;
     StaticHistory apart({});  // its points need not meet any equation on the way: they say nothing of what is least
     if (iterate_by_newton(equations_, at, newton_at_last(), apart)) descend(std::move(at));
@@ -274,11 +279,13 @@ void EquilibriumSearch::search_by_other_ways() {
   for (const OperatingPoint* start : {&lowest_, &drawn_}) {
     for (const bool forward : {true, false}) {
       if (!may_go_on()) break;
+      history_.begin("continuation");
       if (auto rest = follow_to_rest(equations_, *start, forward)) descend(std::move(*rest));
     }
   }
   for (const OperatingPoint* start : {&drawn_, &lowest_}) {
     if (!may_go_on()) break;
+    history_.begin("damped motion");
     OperatingPoint moving = *start;
     if (settles(equations_, moving, options_, {}, loose_, history_)) descend(std::move(moving));
   }
@@ -287,6 +294,7 @@ void EquilibriumSearch::search_by_other_ways() {
 
 void EquilibriumSearch::search_from_other_places() {
   for (int k = 0; k < options_.restarts && may_go_on(); ++k) {
+    history_.begin("from other places");
     OperatingPoint other = elsewhere(system_, drawn_, k);
     if (reduce_imbalance(equations_, other, 60)) descend(std::move(other));
   }

@@ -9,21 +9,26 @@ Result<OperatingPoint> initial_conditions(const System& system, const OperatingP
                                           Findings& findings, const LevelWatch& watch, Level last) {
   const auto watched = [&](Level level, OperatingPoint begun, const auto& solve) -> Result<OperatingPoint> {
     if (level > last) return begun;
-    if (watch) watch(level, false);
+    if (watch.level) watch.level(level, false);
     Result<OperatingPoint> op = solve(std::move(begun));
-    if (op && watch) watch(level, true);
+    if (op && watch.level) watch.level(level, true);
     return op;
   };
+  const Progress told = watch.progress.of("initial conditions");
   const auto assemble = [&](OperatingPoint begun) {
     take_stated_turns(system, restated, begun);
-    auto op = assemble_position(system, std::move(begun), findings, restated);
+    auto op = assemble_position(system, std::move(begun), findings, restated, told);
     if (op) warn_of_moves(system, from, *op, findings.warnings);
     return op;
   };
   const auto reconcile = [&](OperatingPoint op) {
+    told.tell("velocities");
     return reconcile_velocity(system, std::move(op), findings, restated);
   };
-  const auto accelerate = [&](OperatingPoint op) { return solve_acceleration(system, std::move(op), findings); };
+  const auto accelerate = [&](OperatingPoint op) {
+    told.tell("accelerations and reactions");
+    return solve_acceleration(system, std::move(op), findings);
+  };
   return watched(Level::position, from, assemble)
       .and_then([&](OperatingPoint op) { return watched(Level::velocity, std::move(op), reconcile); })
       .and_then([&](OperatingPoint op) { return watched(Level::acceleration, std::move(op), accelerate); });

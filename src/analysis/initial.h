@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "base/progress.h"
 #include "model/restated.h"
 #include "system/system.h"
 
@@ -30,7 +31,8 @@ inline constexpr double follower_weight = 1e-16;
 // What of the statements about the start holds is said by the last argument of each: nothing where it is left out.
 //
 // Moves the poses onto the constraints by the least change; a consistent point comes back untouched.
-Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&, const Restated& = {});
+Result<OperatingPoint> assemble_position(const System&, OperatingPoint start, Findings&, const Restated& = {},
+                                         const Progress& = {});
 // Velocities by the dataset's initial conditions.
 Result<OperatingPoint> initial_velocity(const System&, OperatingPoint, Findings&);
 // Velocities of least change from those of the point itself.
@@ -39,8 +41,10 @@ Result<OperatingPoint> reconcile_velocity(const System&, OperatingPoint, Finding
 Result<OperatingPoint> solve_acceleration(const System&, OperatingPoint, Findings&);
 
 enum class Level { position, velocity, acceleration };
-// Called as each level begins and when it is done.
-using LevelWatch = std::function<void(Level, bool done)>;
+struct LevelWatch {
+  std::function<void(Level, bool done)> level{};  // called as each begins and when it is done
+  Progress progress{};
+};
 // The levels in turn up to the last one, with a word on what assembly moves.
 Result<OperatingPoint> initial_conditions(const System&, const OperatingPoint& from, const Restated&, Findings&,
                                           const LevelWatch& = {}, Level last = Level::acceleration);

@@ -54,12 +54,12 @@ double change(const System& system, const OperatingPoint& from, const OperatingP
 
 // From the drawn place and, if that fails, from places all over the curves. The least change counts.
 std::optional<OperatingPoint> assemble_inside(const System& system, const OperatingPoint& drawn,
-                                              const HeldStarts& starts) {
+                                              const HeldStarts& starts, const Progress& progress) {
   constexpr std::size_t places = 12;
   const Layout& layout = system.layout();
   std::optional<OperatingPoint> best;
   const auto consider = [&](OperatingPoint from) {
-    auto found = assemble(system, std::move(from), starts, Ends::kept);
+    auto found = assemble(system, std::move(from), starts, Ends::kept, progress);
     if (!found || beyond_an_end(layout, *found)) return;
     if (!best || change(system, drawn, *found) < change(system, drawn, *best)) best = std::move(*found);
   };
@@ -96,19 +96,20 @@ std::vector<bool> exact_where_bodies_deform(const System& system) {
 
 }  // namespace
 
-Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, const Restated& restated) {
+Result<OperatingPoint> assemble_position(const System& system, OperatingPoint op, Findings&, const Restated& restated,
+                                         const Progress& progress) {
   const Layout& layout = system.layout();
   const HeldStarts starts = held_starts(system, restated);
   const bool searches = restated.is_all() && !layout.curve_points.empty();
   // A body deforms before a coordinate leaves where EXACT holds it, if that is enough.
   if (const std::vector<bool> held = exact_where_bodies_deform(system); !held.empty()) {
-    auto bent = assemble(system, op, starts, Ends::passed, held);
+    auto bent = assemble(system, op, starts, Ends::passed, progress, held);
     if (bent && !(searches && beyond_an_end(layout, *bent))) return bent;
   }
   const OperatingPoint drawn = searches ? op : OperatingPoint();
-  auto found = assemble(system, std::move(op), starts, Ends::passed);
+  auto found = assemble(system, std::move(op), starts, Ends::passed, progress);
   if (searches && (!found || beyond_an_end(layout, *found))) {
-    if (auto inside = assemble_inside(system, drawn, starts)) return *std::move(inside);
+    if (auto inside = assemble_inside(system, drawn, starts, progress)) return *std::move(inside);
   }
   return found;
 }

@@ -6,11 +6,17 @@
 
 namespace dynalin {
 
+void StaticHistory::begin(std::string_view search) {
+  search_ = search;
+  progress_.tell(search);
+}
+
 void StaticHistory::add(double imbalance, double rate) {
   last_ = {imbalance, rate};
   if (count_ == 0) first_ = last_;
   if (imbalance < best_.imbalance) best_ = last_, best_at_ = count_;
-  if (progress_) progress_(count_, imbalance);
+  if (watch_) watch_(count_, imbalance);
+  progress_.tell([&] { return fmt::format("{}: iteration {}, imbalance {:.2e}", search_, count_, imbalance); });
   ++count_;
 }
 

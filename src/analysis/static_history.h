@@ -6,15 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
+
 namespace dynalin {
 
-// Called with every iteration; for a line that shows progress.
+// Called with every iteration.
 using StaticProgress = std::function<void(int iteration, double imbalance)>;
 
 class StaticHistory {
  public:
-  explicit StaticHistory(StaticProgress progress) : progress_(std::move(progress)) {}
+  explicit StaticHistory(StaticProgress watch, Progress progress = {})
+      : watch_(std::move(watch)), progress_(std::move(progress)) {}
 
+  // Which search is on from now: "continuation".
+  void begin(std::string_view search);
   // Forces that are out of balance, and the fastest rate of a state: it is at rest where both are nothing.
   void add(double imbalance, double rate);
   int iterations() const { return count_; }
@@ -22,7 +27,9 @@ class StaticHistory {
   std::vector<std::string> lines() const;
 
  private:
-  StaticProgress progress_;
+  StaticProgress watch_;
+  Progress progress_;
+  std::string_view search_;
   struct Iteration {
     double imbalance = 0, rate = 0;
   };

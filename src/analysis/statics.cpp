@@ -118,7 +118,8 @@ Result<OperatingPoint> find_equilibrium(const System& system, OperatingPoint op,
   op.delays.reset();  // at rest the past is the present
   const std::vector<double> first_state = op.state;
   for (auto* x : {&op.velocity, &op.acceleration, &op.state_rate}) std::fill(x->begin(), x->end(), 0.0);
-  auto assembled = assemble_position(system, op, findings);
+  const Progress told = options.told.of("static equilibrium");
+  auto assembled = assemble_position(system, op, findings, {}, told);
   if (!assembled) return assembled;
   // Between points of a simulation nothing is drawn.
   if (!in_course) warn_of_moves(system, op, *assembled, findings.warnings);
@@ -140,6 +141,7 @@ Result<OperatingPoint> static_operating_point(const System& system, OperatingPoi
     // What statics alone evaluate keeps its value at rest where velocities come back.
     system.remember(*op);
     report.at_rest = *op;
+    options.told.tell("static equilibrium: accelerations and reactions there");
   }
   if (op && op->time == 0 && options.restore_velocities) op = initial_velocity(system, std::move(*op), findings);
   if (op) op = reconcile_velocity(system, std::move(*op), findings);

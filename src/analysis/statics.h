@@ -55,6 +55,7 @@ struct StaticsOptions {
   std::optional<StaticTolerance> tolerance;
   std::optional<OriginalMethod> original;  // the first search, where asked for
   std::optional<DampedMotion> motion;
+  Progress told{};  // what is being done: which search, how far it is
 };
 
 struct StaticsReport {

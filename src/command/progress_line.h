@@ -1,41 +1,54 @@
-// One line on a terminal that is rewritten in place, a few times a second.
+// One line on a terminal that is rewritten in place, a few times a second: what is being done, and for how long where
+// that does not change.
 #pragma once
 
-#include <unistd.h>
-
 #include <chrono>
-#include <iostream>
+#include <condition_variable>
+#include <iosfwd>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "base/progress.h"
 
 namespace dynalin {
 
 class ProgressLine {
  public:
-  // Silent without a stream, and where the stream is not a terminal.
-  explicit ProgressLine(std::ostream* out)
-      : out_(out && out->rdbuf() == std::cout.rdbuf() && ::isatty(STDOUT_FILENO) != 0 ? out : nullptr) {}
-  ~ProgressLine() { clear(); }
+  // Silent without a stream, and where the stream is not a terminal. Meanwhile nothing else may be written there.
+  explicit ProgressLine(std::ostream* out);
+  ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // `text()` is asked for only when it is due; what takes no time shows nothing.
+  // What is being done from now on. What takes no time shows nothing.
+  void say(std::string text);
+  // Of what goes by many times a second: `text()` is asked for only when it is due.
   template <class Text>
-  void show(Text&& text) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!out_ || now < due_) return;
-    due_ = now + std::chrono::milliseconds(200);
-    *out_ << '\r' << text() << to_end << std::flush;
-    shown_ = true;
+  void show(const Text& text) {
+    if (!out_ || Clock::now() < due_) return;
+    due_ = Clock::now() + interval;
+    say(text());
   }
-  void clear() {
-    if (shown_) *out_ << '\r' << to_end << std::flush;
-    shown_ = false;
-  }
+  // For whoever tells it; it must not outlive the line.
+  Progress progress();
+  // Before anything else is written.
+  void clear();
 
  private:
-  static constexpr const char* to_end = "\033[K";  // clears what is left of the line
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto interval = std::chrono::milliseconds(200);
+
+  void watch();
+
   std::ostream* out_;
-  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
-  bool shown_ = false;
+  Clock::time_point due_ = Clock::now() + interval;
+  std::mutex mutex_;  // of all that follows
+  std::condition_variable end_;
+  bool ended_ = false;
+  std::string said_, shown_;
+  Clock::time_point since_;
+  std::thread watcher_;  // writes the line, however long the one who speaks is silent
 };
 
 }  // namespace dynalin

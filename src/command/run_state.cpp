@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "command/progress_line.h"
 #include "output/message_file.h"
 #include "output/operating_state_text.h"
 #include "system/operating_state.h"
@@ -45,7 +46,9 @@ StudyResult<void> RunState::make_consistent(Level last) {
     done ? write_end(message, title) : write_begin(message, title);
   };
   const bool there = point.consistent;
-  auto found = initial_conditions(point, tell, last);
+  ProgressLine line(status_line());
+  auto found = initial_conditions(point, {tell, line.progress()}, last);
+  line.clear();
   if (!found) return tl::unexpected(found.error());
   if (there)
     point = std::move(found->point);

@@ -1,5 +1,6 @@
 #include "eigenvalues/eigen.h"
 
+#include <fmt/format.h>
 #include <lapacke.h>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
   return found;
 }
 
-Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
+Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted, const Progress& progress) {
   EigenSolution out;
   out.time = linear.model.time;
   out.kinematic_states = linear.kinematic_states;
@@ -79,6 +80,8 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   constexpr Eigen::Index most_for_one_thread = 500;
   std::optional<OneBlasThread> alone;
   if (A.rows() <= most_for_one_thread) alone.emplace();
+  const Progress told = progress.of("all modes");
+  told.tell([&] { return fmt::format("QR iteration of {} states", A.rows()); });
   std::optional<UnrefinedPairs> found = unrefined_pairs(linear);
   if (!found)
     return tl::unexpected(Failure{"eigensolution", "the QR iteration did not converge", {}, "no-eigensolution"});
@@ -86,6 +89,7 @@ Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted) {
   EigenPairs& pairs = found->pairs;
   const Eigen::Index n = A.rows(), z = zero.count;
   std::vector<EigenTrust> trust(pairs.values.size());
+  told.tell([&] { return fmt::format("correction and bounds of {} eigenvalues", n - z); });
   if (n > z) trust = refine({*linear.pencil, zero, linear.uncertainty, linear.beside_coefficients}, zero, pairs);
 
   clear_rounding(pairs, trust);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "analysis/initial.h"
+#include "base/progress.h"
 #include "eigenvalues/eigen_pairs.h"
 #include "eigenvalues/zero_modes.h"
 #include "linear/linear_system.h"
@@ -16,7 +17,7 @@ enum class Vectors : bool { none, right };
 // λ/2π: real ones first by ascending modulus, then complex pairs by ascending imaginary part. Zeros that follow from
 // the structure are exact (zero_modes.h); the others are corrected on the sparse perturbation equations and carry an
 // error bound (eigen_refinement.h).
-Result<EigenSolution> eigensolve(const LinearSystem&, Vectors = Vectors::right);
+Result<EigenSolution> eigensolve(const LinearSystem&, Vectors = Vectors::right, const Progress& = {});
 
 // What the QR iteration alone gives of a finite state matrix [rad/time], and the zeros that it did not see; nothing if
 // it does not converge.

@@ -1,5 +1,7 @@
 #include "selected_modes/conservative_search.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -21,8 +23,9 @@ using ComplexMatrix = Eigen::MatrixXcd;
 
 }  // namespace
 
-ConservativeSearch::ConservativeSearch(std::shared_ptr<const ConservativeModel> model, ShiftInverse& op)
-    : model_(std::move(model)), op_(&op), vectors_(model_->coordinates(), 0) {}
+ConservativeSearch::ConservativeSearch(std::shared_ptr<const ConservativeModel> model, ShiftInverse& op,
+                                       Progress progress)
+    : model_(std::move(model)), op_(&op), told_(std::move(progress)), vectors_(model_->coordinates(), 0) {}
 
 void ConservativeSearch::follow_shift() {}
 
@@ -89,6 +92,11 @@ bool ConservativeSearch::extend(Index wanted, double least, int restarts) {
     if (!space.fill()) return false;
     const ConservativeKrylov::Ritz ritz = space.ritz();
     const Index all = ritz.count(), done = ritz.found();
+    told_.tell([&] {
+      const Index before = vectors_.cols();
+      return fmt::format("{} of {} undamped modes, restart {}", before + std::min(done, wanted), before + wanted,
+                         restart);
+    });
     progress.look(done, all, done > 0 ? ritz.value(done - 1).size : 0,
                   done < all ? std::optional(ritz.value(done)) : std::nullopt);
     if (progress.has_reached_its_end() || restart + 1 == restarts || progress.stands_still()) {

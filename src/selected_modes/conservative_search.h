@@ -9,7 +9,7 @@ namespace dynalin {
 
 class ConservativeSearch : public ModeSearch {
  public:
-  ConservativeSearch(std::shared_ptr<const ConservativeModel>, ShiftInverse&);
+  ConservativeSearch(std::shared_ptr<const ConservativeModel>, ShiftInverse&, Progress = {});
 
   // On shifts off the real axis values are those above it.
   void follow_shift() override;
@@ -31,6 +31,7 @@ class ConservativeSearch : public ModeSearch {
 
   std::shared_ptr<const ConservativeModel> model_;
   ShiftInverse* op_;
+  Progress told_;
   Eigen::MatrixXd vectors_;                  // of coordinates, VᵀMV = 1
   std::vector<double> squares_, unsettled_;  // ω², and of what has not converged
   double reached_ = 0;

@@ -1,5 +1,7 @@
 #include "selected_modes/eigenvalue_count.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -23,8 +25,9 @@ constexpr double least_piece = 1e-9;  // of the border
 
 class Winding {
  public:
-  Winding(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known, std::size_t most_points)
-      : lu_(lu), border_(border), known_(known), most_points_(most_points) {}
+  Winding(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known, std::size_t most_points,
+          const Progress& progress)
+      : lu_(lu), border_(border), known_(known), most_points_(most_points), progress_(progress) {}
 
   // Of the smoothed determinant; nothing if the border is too near an eigenvalue.
   std::optional<double> phase() {
@@ -72,6 +75,7 @@ class Winding {
 
   bool add(std::vector<Point>::iterator before, double t) {
     const Complex sigma = border_.at(t);
+    progress_.tell([&] { return fmt::format("point {} of a border", points_.size() + 1); });
     if (!lu_.factor(sigma)) return false;
     Complex value = lu_.log_determinant();
     for (const Complex& p : known_) {
@@ -119,6 +123,7 @@ class Winding {
   const Border& border_;
   const std::vector<Complex>& known_;
   const std::size_t most_points_;
+  const Progress& progress_;
   std::vector<Point> points_;
 };
 
@@ -162,8 +167,8 @@ Border rectangle(double left, double right, double low, double high) {
 
 std::optional<Eigen::Index> eigenvalues_inside(ShiftedLu& lu, const Border& border, const std::vector<Complex>& known,
                                                const std::function<bool(Complex)>& inside,
-                                               std::size_t most_factorizations) {
-  const auto phase = Winding(lu, border, known, most_factorizations).phase();
+                                               std::size_t most_factorizations, const Progress& progress) {
+  const auto phase = Winding(lu, border, known, most_factorizations, progress).phase();
   if (!phase) return std::nullopt;
   const double turns = *phase / (border.upper_half ? pi : 2 * pi);
   // Both ends are real, or the same: what is not whole was not followed.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.h"
 #include "system/shifted_lu.h"
 
 namespace dynalin {
@@ -34,6 +35,6 @@ Border rectangle(double left, double right, double low, double high);
 std::optional<Eigen::Index> eigenvalues_inside(ShiftedLu&, const Border&,
                                                const std::vector<std::complex<double>>& known,
                                                const std::function<bool(std::complex<double>)>& inside,
-                                               std::size_t most_factorizations = 1500);
+                                               std::size_t most_factorizations = 1500, const Progress& = {});
 
 }  // namespace dynalin

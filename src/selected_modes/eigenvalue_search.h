@@ -36,7 +36,8 @@ class EigenvalueSearch : public ModeSearch {
  public:
   enum class Side : bool { right, left };
 
-  EigenvalueSearch(ShiftInverse& op, Side side) : op_(&op), side_(side), space_(op.states()) {}
+  EigenvalueSearch(ShiftInverse& op, Side side, Progress progress = {})
+      : op_(&op), side_(side), space_(op.states(), std::move(progress)) {}
 
   void follow_shift() override;
   bool run(Eigen::Index wanted, double radius) override;

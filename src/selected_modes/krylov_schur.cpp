@@ -1,5 +1,6 @@
 #include "selected_modes/krylov_schur.h"
 
+#include <fmt/format.h>
 #include <lapacke.h>
 
 #include <algorithm>
@@ -199,6 +200,10 @@ bool KrylovSchur::run(const Operator& op, Index wanted, double least, int restar
   for (int restart = 0; restart < restarts; ++restart) {
     if (!space.fill()) return false;
     const Index done = space.found();
+    progress_.tell([&] {
+      return fmt::format("{} of {} eigenvalues, restart {}", found() + std::min(done, wanted), found() + wanted,
+                         restart);
+    });
     progress.look(done, most, done > 0 ? space.value(done - 1).size : 0,
                   done < most ? std::optional(space.value(done)) : std::nullopt);
     if (progress.has_reached_its_end() || restart + 1 == restarts || progress.stands_still()) {

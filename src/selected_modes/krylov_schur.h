@@ -12,6 +12,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/progress.h"
 #include "distributed/krylov_run.h"
 
 namespace dynalin {
@@ -20,7 +21,8 @@ class KrylovSchur {
  public:
   using Operator = std::function<void(Eigen::VectorXcd&)>;
 
-  explicit KrylovSchur(Eigen::Index size) : size_(size), Q_(size, 0), T_(0, 0) {}
+  explicit KrylovSchur(Eigen::Index size, Progress progress = {})
+      : size_(size), progress_(std::move(progress)), Q_(size, 0), T_(0, 0) {}
 
   // Goes on from a new start vector until this run has locked `wanted` values or the largest that it finds is below
   // `least`; false if it does not converge in so many restarts.
@@ -43,6 +45,7 @@ class KrylovSchur {
   bool take(const KrylovRun&);
 
   Eigen::Index size_;
+  Progress progress_;
   Eigen::MatrixXcd Q_, T_;
   std::vector<std::complex<double>> in_sight_;
   unsigned starts_ = 0;

@@ -1,5 +1,7 @@
 #include "selected_modes/region_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -26,8 +28,12 @@ std::vector<Complex> joined(std::vector<Complex> a, const std::vector<Complex>& 
 }  // namespace
 
 RegionSearch::RegionSearch(const PerturbationEquations& equations, ShiftInverse& op,
-                           std::shared_ptr<const ConservativeModel> conservative)
-    : equations_(equations), conservative_(std::move(conservative)), op_(op), counting_(counting_limits(op.states())) {
+                           std::shared_ptr<const ConservativeModel> conservative, Progress progress)
+    : equations_(equations),
+      conservative_(std::move(conservative)),
+      op_(op),
+      progress_(std::move(progress)),
+      counting_(counting_limits(op.states())) {
   start_anew();
   zero_.directions.resize(op_.states(), 0);
 }
@@ -41,6 +47,7 @@ RegionSearch::CountingLimits RegionSearch::counting_limits(Index states) {
 }
 
 bool RegionSearch::find_zeros(const System& system, const Perturbation& perturbation) {
+  progress_.tell("zeros");
   std::optional<ZerosFound> zeros;
   in_parallel(conservative_ ? 2 : 1, [&](std::size_t task) {
     if (task == 0) {
@@ -64,13 +71,18 @@ bool RegionSearch::find(const ModeSelection& selection) {
 
 void RegionSearch::start_anew() {
   if (conservative_) {
-    auto right = std::make_unique<ConservativeSearch>(conservative_, op_);
+    auto right = std::make_unique<ConservativeSearch>(conservative_, op_, progress_);
     left_ = std::make_unique<LeftOfConservative>(*right);
     right_ = std::move(right);
   } else {
-    right_ = std::make_unique<EigenvalueSearch>(op_, Side::right);
-    left_ = std::make_unique<EigenvalueSearch>(op_, Side::left);
+    right_ = std::make_unique<EigenvalueSearch>(op_, Side::right, progress_);
+    left_ = std::make_unique<EigenvalueSearch>(op_, Side::left, progress_.of("left vectors"));
   }
+}
+
+bool RegionSearch::move_to(Complex shift) {
+  progress_.tell([&] { return fmt::format("factors at {:.4g}", std::abs(shift) / cycle); });
+  return op_.move_to(shift);
 }
 
 bool RegionSearch::too_many() const { return costs_more_than_all(*right_, op_.states()); }
@@ -134,7 +146,8 @@ std::optional<Index> RegionSearch::missing_by_winding() {
     const bool half = !counted_region_.is_disc && counted_region_.low > 0;
     const auto counted = eigenvalues_inside(
         op_.factors(), counted_region_.border(), places(),
-        [&](Complex v) { return counted_region_.has(v) && (!half || v.imag() > 0); }, counting_.factorizations);
+        [&](Complex v) { return counted_region_.has(v) && (!half || v.imag() > 0); }, counting_.factorizations,
+        progress_.of("counting"));
     if (!counted) {
       --counting_.borders;
       continue;
@@ -157,6 +170,7 @@ bool RegionSearch::count() {
     missing_ = 0;
     return selected_.complete = true;
   }
+  progress_.tell([&] { return fmt::format("counting, {} eigenvalues are found", right_->found()); });
   bool agreed = false;
   if (!by_inertia_ && conservative_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
   const std::optional<Index> counted = by_inertia_ ? counted_by_inertia() : std::nullopt;
@@ -180,7 +194,7 @@ bool RegionSearch::find_nearest(const NearestModes& nearest) {
   if (nearest.frequency > 0) {
     const double modulus = cycle * nearest.frequency;
     start_anew();
-    if (!op_.move_to(shift_at(modulus))) return false;
+    if (!move_to(shift_at(modulus))) return false;
     op_.find_units();
   }
   const Index per_mode = nearest.frequency > 0 ? 1 : 2;
@@ -250,7 +264,7 @@ bool RegionSearch::find_band(const ModesInBand& band) {
       const double half = 0.5 * (region_.high - region_.low) / parts;
       const double middle = region_.low + (2 * part + 1) * half;
       const Complex shift = both_members() ? Complex(beside_axis * region_.high) : shift_at(middle);
-      if (!op_.move_to(shift)) continue;
+      if (!move_to(shift)) continue;
       if (level == 0) op_.find_units();
       right_->follow_shift();
       shifts_.push_back(shift);

@@ -23,7 +23,7 @@ inline constexpr Eigen::Index states_of_middling_models = 1500;
 
 class RegionSearch {
  public:
-  RegionSearch(const PerturbationEquations&, ShiftInverse&, std::shared_ptr<const ConservativeModel>);
+  RegionSearch(const PerturbationEquations&, ShiftInverse&, std::shared_ptr<const ConservativeModel>, Progress = {});
 
   // What is zero, which comes first; false where no shift near it could be factored.
   bool find_zeros(const System&, const Perturbation&);
@@ -65,6 +65,7 @@ class RegionSearch {
   std::optional<Eigen::Index> counted_by_inertia();
   std::optional<Eigen::Index> missing_by_winding();
   bool count();
+  bool move_to(std::complex<double> shift);
   bool find_nearest(const NearestModes&);
   double reach_of_region() const;
   bool look_for_more(double radius);
@@ -73,6 +74,7 @@ class RegionSearch {
   const PerturbationEquations& equations_;
   const std::shared_ptr<const ConservativeModel> conservative_;
   ShiftInverse& op_;
+  const Progress progress_;
   std::unique_ptr<ModeSearch> right_, left_;
   std::vector<std::complex<double>> shifts_;
   NearZero zero_;

@@ -43,14 +43,16 @@ Failure no_convergence(std::string what) { return {"eigensolution", std::move(wh
 
 class Solution {
  public:
-  Solution(const System& system, const Perturbation& perturbation, const ModeSelection& wanted)
+  Solution(const System& system, const Perturbation& perturbation, const ModeSelection& wanted,
+           const Progress& progress)
       : system_(system),
         perturbation_(perturbation),
         equations_(*perturbation.equations),
         wanted_(wanted),
+        progress_(progress),
         conservative_(ConservativeModel::make(perturbation)),
         op_(equations_, conservative_),
-        search_(equations_, op_, conservative_) {}
+        search_(equations_, op_, conservative_, progress) {}
 
   Result<EigenSolution> run(Vectors vectors) {
     selected_.wanted = wanted_;
@@ -84,6 +86,7 @@ class Solution {
   }
   // Left vectors of the same eigenvalues, and what both say.
   std::optional<BoundedPairs> bound() {
+    progress_.tell("left vectors");
     const ModeRegion& region = search_.region();
     // Where nothing was counted, the region itself.
     const bool none = search_.counted_region().is_disc && search_.counted_region().radius == 0;
@@ -115,6 +118,7 @@ class Solution {
     if (inside(left_side) != inside(right_side)) return std::nullopt;
     selected_.found = static_cast<std::size_t>(search_.count_in(region));
 
+    progress_.tell("bounds");
     // Of undamped pairs one member says all: the other is no nearer than twice its modulus.
     const auto is_mirror = [&](Complex v) { return conservative_ && v.imag() < 0 && -v.imag() > search_.near(); };
     const auto chosen = [&](Complex v) { return in_part(v) && !is_mirror(v); };
@@ -189,6 +193,7 @@ class Solution {
   const Perturbation& perturbation_;
   const PerturbationEquations& equations_;
   const ModeSelection wanted_;
+  const Progress& progress_;
   const std::shared_ptr<const ConservativeModel> conservative_;
   ShiftInverse op_;
   RegionSearch search_;
@@ -198,13 +203,14 @@ class Solution {
 }  // namespace
 
 Result<EigenSolution> eigensolve_selected(const System& system, const Perturbation& perturbation,
-                                          const ModeSelection& wanted, Vectors vectors) {
+                                          const ModeSelection& wanted, Vectors vectors, const Progress& progress) {
   const PerturbedPoint& at = *perturbation.at;
   const auto states = static_cast<Index>(perturbation.model.states.size());
   const auto from_all = [&]() -> Result<EigenSolution> {
+    progress.tell("state matrix");
     auto linear = reduce(system, perturbation);
     if (!linear) return tl::unexpected(linear.error());
-    auto all = eigensolve(*linear, vectors);
+    auto all = eigensolve(*linear, vectors, progress);
     if (!all) return all;
     return selected_of(*all, wanted);
   };
@@ -214,7 +220,9 @@ Result<EigenSolution> eigensolve_selected(const System& system, const Perturbati
   auto solution = [&] {
     // Blocks are narrow: its threads would cost more than they give, and round as many as there are.
     const OneBlasThread alone;
-    return Solution(system, perturbation, wanted).run(vectors);
+    const Progress told = progress.of("selected modes");
+    told.tell("factors");
+    return Solution(system, perturbation, wanted, told).run(vectors);
   }();
   const bool settled = solution && solution->selected->complete;
   if (!settled && states <= most_for_full_solution) return from_all();

@@ -9,6 +9,6 @@ namespace dynalin {
 
 // The same order, values, vectors, bounds and condition numbers as eigensolve() has for these modes.
 Result<EigenSolution> eigensolve_selected(const System&, const Perturbation&, const ModeSelection&,
-                                          Vectors = Vectors::right);
+                                          Vectors = Vectors::right, const Progress& = {});
 
 }  // namespace dynalin

@@ -126,8 +126,10 @@ void add_reference_caution(const Linearization& of, const EigenSolution* modes, 
 }
 
 // Named, labelled and commented, whichever way they were found.
-StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution> modes, Vectors wanted) {
+StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution> modes, Vectors wanted,
+                                  const Progress& progress) {
   if (!modes) return tl::unexpected(StudyFailure(modes.error()));
+  progress.tell("shapes of modes, and what to beware of");
   if (wanted != Vectors::none) {
     clear_still_modes(*of.system, of.point, of.linear, *modes);
     name_movers(*of.system, of.point, of.linear, *modes);
@@ -140,8 +142,9 @@ StudyResult<ModesFound> presented(const Linearization& of, Result<EigenSolution>
   return ModesFound{std::move(*modes), std::move(remarks)};
 }
 
-Result<EigenSolution> selected_of_all(const Linearization& of, Vectors wanted, const ModeSelection& selection) {
-  auto all = eigensolve(of.linear, wanted);
+Result<EigenSolution> selected_of_all(const Linearization& of, Vectors wanted, const ModeSelection& selection,
+                                      const Progress& progress) {
+  auto all = eigensolve(of.linear, wanted, progress);
   if (!all) return all;
   return selected_of(*all, selection);
 }
@@ -174,15 +177,17 @@ Diagnostics shortcomings(const EigenSolution& modes) {
 
 }  // namespace
 
-StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted) {
-  return presented(of, eigensolve(of.linear, wanted), wanted);
+StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const Progress& progress) {
+  return presented(of, eigensolve(of.linear, wanted, progress), wanted, progress);
 }
 
-StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const ModeSelection& selection) {
-  auto found = presented(of,
-                         of.has_state_matrix() ? selected_of_all(of, wanted, selection)
-                                               : eigensolve_selected(*of.system, of.linear, selection, wanted),
-                         wanted);
+StudyResult<ModesFound> modes_of(const Linearization& of, Vectors wanted, const ModeSelection& selection,
+                                 const Progress& progress) {
+  auto found =
+      presented(of,
+                of.has_state_matrix() ? selected_of_all(of, wanted, selection, progress)
+                                      : eigensolve_selected(*of.system, of.linear, selection, wanted, progress),
+                wanted, progress);
   if (found) found->remarks.append(shortcomings(found->solution));
   return found;
 }

@@ -55,11 +55,11 @@ struct ModesFound {
   Diagnostics remarks;
 };
 // Of a model with its state matrix.
-StudyResult<ModesFound> modes_of(const Linearization&, Vectors);
+StudyResult<ModesFound> modes_of(const Linearization&, Vectors, const Progress& = {});
 // What a reader of the matrices has to know, as modes_of() says it beside modes.
 Diagnostics remarks_of_matrices(const Linearization&);
 // The selected ones of any.
-StudyResult<ModesFound> modes_of(const Linearization&, Vectors, const ModeSelection&);
+StudyResult<ModesFound> modes_of(const Linearization&, Vectors, const ModeSelection&, const Progress& = {});
 StudyResult<SecondOrder> second_order_form(const Linearization&);
 
 // The same with its state matrix, and what forming that has to say besides (new_remarks).

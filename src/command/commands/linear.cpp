@@ -10,6 +10,7 @@
 
 #include "command/mode_tables.h"
 #include "command/output_plan.h"
+#include "command/progress_line.h"
 #include "command/run_state.h"
 #include "linear/descriptor_form.h"
 #include "nastran/export.h"
@@ -169,7 +170,10 @@ StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& 
   }
   const std::clock_t begun = std::clock();
   const Vectors vectors = command.without_vectors ? Vectors::none : Vectors::right;
-  const auto found = selection ? modes_of(linear, vectors, *selection) : modes_of(linear, vectors);
+  ProgressLine line(run.status_line());
+  const Progress progress = line.progress();
+  const auto found = selection ? modes_of(linear, vectors, *selection, progress) : modes_of(linear, vectors, progress);
+  line.clear();
   if (!found) return tl::unexpected(found.error());
   const double cpu_seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   const EigenSolution& modes = found->solution;
@@ -177,7 +181,9 @@ StudyResult<void> solve_modes(const Linearization& linear, const LinearCommand& 
   // All that this command has to say is in the files of the run, or nothing of it.
   TablesFound tables;
   if (command.tables.any()) {
+    line.say("tables of modes");
     auto made = modal_tables(linear, modes, command.tables);
+    line.clear();
     if (!made) return tl::unexpected(made.error());
     tables = std::move(*made);
     run.tables << mode_tables_text(command, modes, tables);
@@ -209,7 +215,10 @@ StudyResult<void> Linear::run(RunState& run) const {
   const std::optional<ModeSelection> selection = selection_of(command, run.options);
   const bool matrices = command.option == LinearOption::statemat || command.option == LinearOption::mkb;
   const Stateless stateless = deck ? Stateless::taken : matrices ? stateless_matrices(request) : Stateless::refused;
+  ProgressLine line(run.status_line());
+  line.say("linear model");
   auto linear = linearized(run.point, request, stateless, reduction_of(*this, request, selection.has_value()));
+  line.clear();
   if (!linear) return tl::unexpected(linear.error());
   run.remarks.say(linear->remarks());
   if (matrices && !command.descriptor) {
@@ -219,7 +228,9 @@ StudyResult<void> Linear::run(RunState& run) const {
   if (command.option == LinearOption::eigensol && !selection) {
     run.remarks.say(cost_of_all_modes(linear->states()));
     if (!linear->has_state_matrix()) {
+      line.say(fmt::format("state matrix of {} states", linear->states()));
       auto whole = with_state_matrix(*linear);
+      line.clear();
       if (!whole) return tl::unexpected(whole.error());
       run.remarks.say(new_remarks(whole->remarks(), linear->remarks()));
       linear = std::move(whole);

@@ -133,15 +133,17 @@ StudyResult<void> find_rest(RunState& run) {
   if (run.preferences.iterations) fmt::print(run.message, "  Iteration   Imbalance\n");
   options.progress = [&](int iteration, double imbalance) {
     if (run.preferences.iterations) fmt::print(run.message, "  {:9d}   {:.5E}\n", iteration, imbalance);
-    line.show([&] { return fmt::format("static equilibrium: iteration {}, imbalance {:.2e}", iteration, imbalance); });
   };
+  options.told = line.progress();
   auto found = static_equilibrium(run.point, options);
   line.clear();
   if (!found) return tl::unexpected(found.error());
   write_static_result(run.message, found->point.statics->iterations, found->point.statics->imbalance);
   write_end(run.message, "Static Solution");
   run.accept(std::move(*found));
+  line.say("stability of the equilibrium");
   const StaticResult result = static_result(run.point);
+  line.clear();
   fmt::print(run.message, "  Stability: {}\n", result.stability.text());
   if (run.terminal)
     fmt::print(*run.terminal, "static equilibrium after {} iteration{}, imbalance {:.3e}, {}\n", result.iterations,
