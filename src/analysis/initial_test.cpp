@@ -25,7 +25,7 @@ TEST(InitialConditions, take_one_level_after_the_other) {
   Findings findings;
   std::vector<std::pair<Level, bool>> seen;
   ASSERT_TRUE(initial_conditions(*system, system->drawn(), Restated::all(), findings,
-                                 [&](Level level, bool done) { seen.emplace_back(level, done); }));
+                                 {.level = [&](Level level, bool done) { seen.emplace_back(level, done); }}));
   EXPECT_THAT(seen, ElementsAre(Pair(Level::position, false), Pair(Level::position, true), Pair(Level::velocity, false),
                                 Pair(Level::velocity, true), Pair(Level::acceleration, false),
                                 Pair(Level::acceleration, true)));
@@ -37,7 +37,7 @@ TEST(InitialConditions, end_at_the_level_that_fails) {
   Findings findings;
   std::vector<std::pair<Level, bool>> seen;
   EXPECT_FALSE(initial_conditions(*system, system->drawn(), Restated::all(), findings,
-                                  [&](Level level, bool done) { seen.emplace_back(level, done); }));
+                                  {.level = [&](Level level, bool done) { seen.emplace_back(level, done); }}));
   EXPECT_THAT(seen, ElementsAre(Pair(Level::position, false)));
 }
 

@@ -149,7 +149,7 @@ TEST_F(Growth, very_many_edits_take_as_long_as_what_they_change) {
 
 // Body k is held by 4 k in each of its coordinates, and nothing ties it to the others.
 TEST_F(Growth, a_force_on_very_many_markers_costs_what_its_matrix_holds) {
-  constexpr int count = 400;
+  constexpr int count = 500;
   std::string text = "many\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\n", markers, places, values;
   for (int k = 1; k <= count; ++k) {
     const std::string marker = std::to_string(1000 + k), part = std::to_string(k + 1);
@@ -163,9 +163,9 @@ TEST_F(Growth, a_force_on_very_many_markers_costs_what_its_matrix_holds) {
   const std::string size = std::to_string(6 * count);
   text += "MATRIX/1, SPARSE, ROWS=" + size + ", COLUMNS=" + size + ", I=" + places + "\n, J=" + places +
           "\n, VALUES=" + values + "\nNFORCE/1, J=1, KMATRIX=1, IMARKERS=" + markers + "\nEND\n";
-  const RunResult r = run(text, "LINEAR/EIGENSOL, NMODES=6\n");
+  const RunResult r = run(text, "SIMULATE/STATICS\nLINEAR/EIGENSOL, NMODES=6\n");
   ASSERT_EQ(r.status, 0) << r.err.substr(0, 1000);
-  expect_eigenvalues(r.eigenvalues(0), std::vector<std::complex<double>>(6, {0, 2 / (2 * std::numbers::pi)}));
+  expect_eigenvalues(r.eigenvalues(1), std::vector<std::complex<double>>(6, {0, 2 / (2 * std::numbers::pi)}));
   EXPECT_LT(seconds(), most_seconds);
 }
 
