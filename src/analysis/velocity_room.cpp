@@ -14,7 +14,7 @@ namespace {
 // Of a gradient of size 1. What follows from others to the tolerance of the elimination may be more of it by the size
 // of the rows that it has been taken from.
 constexpr double no_room = 100 * EliminationOptions{}.rank_tolerance;
-constexpr std::size_t at_once = 64;
+constexpr std::size_t solved_at_once = 64;
 
 }  // namespace
 
@@ -43,8 +43,8 @@ std::vector<VelocityCondition> take_without_room(const System& system, const Mot
   const std::int32_t size = n + static_cast<std::int32_t>(active.size());
   if (!lu.factor(compressed(size, size, entries))) return {};
   std::vector<VelocityCondition> given_up, others(conditions.begin(), conditions.begin() + constraints);
-  for (std::size_t first = active.size(); first < conditions.size(); first += at_once) {
-    const auto some = std::span(conditions).subspan(first, std::min(at_once, conditions.size() - first));
+  for (std::size_t first = active.size(); first < conditions.size(); first += solved_at_once) {
+    const auto some = std::span(conditions).subspan(first, std::min(solved_at_once, conditions.size() - first));
     Eigen::MatrixXd y = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(some.size()));
     for (std::size_t k = 0; k < some.size(); ++k) {
       const double unit = unit_of(system, some[k]);
