@@ -213,8 +213,10 @@ std::shared_ptr<const System> with_mode(const Mode& mode) {
   NodeShapes shape;
   shape.translation = {(mode.turns ? mode.advance : 1.0) * direction};
   shape.rotation = {(mode.turns ? 1.0 : 0.0) * direction};
-  model->bodies[1].modal = {{"Modal generalized coordinate Q1"}};
-  model->bodies[1].modal_kind = {StateType{99}, ExtraRole::shape};  // as of no element there is
+  BodyNature nature = *model->bodies[1].nature;
+  nature.modal = {{"Modal generalized coordinate Q1"}};
+  nature.modal_kind = {StateType{99}, ExtraRole::shape};  // as of no element there is
+  model->bodies[1].nature = std::make_shared<const BodyNature>(std::move(nature));
   for (const std::int64_t id : {31, 32, 33, 7, 8}) {
     MarkerPlace& place = model->markers[static_cast<std::size_t>(model->find_marker(id)->index)].place;
     auto own = std::make_unique<NodeShapes>(shape);
