@@ -1,6 +1,7 @@
 // Any bytes as a function expression: a message, or a program whose value and partial derivatives are finite numbers
 // or a fault that names the function.
 #include "expression/expression.h"
+#include "expression/program_shape.h"
 
 #include <cmath>
 #include <memory>
@@ -72,12 +73,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   std::vector<Token> tokens;
   lexer.next_statement(tokens);
   Diagnostics diagnostics;
-  const Expression scalar = parse_expression(tokens, source, diagnostics);
+  ProgramShapes shapes;
+  const Expression scalar = parse_expression(tokens, source, diagnostics, shapes);
   fuzz::demand_sound(diagnostics);
   fuzz::demand(!diagnostics.has_errors() || scalar.is_constant(), "an expression of wrong text");
   if (!diagnostics.has_errors()) fuzz::evaluate(scalar);
   Diagnostics of_vector;
-  const VectorExpression vector = parse_vector_expression(tokens, source, of_vector);
+  const VectorExpression vector = parse_vector_expression(tokens, source, of_vector, shapes);
   fuzz::demand_sound(of_vector);
   if (of_vector.has_errors()) return 0;
   for (const Expression& component : vector.component) fuzz::evaluate(component);
