@@ -1,7 +1,6 @@
 // Any bytes as a function expression: a message, or a program whose value and partial derivatives are finite numbers
 // or a fault that names the function.
 #include "expression/expression.h"
-#include "expression/program_shape.h"
 
 #include <cmath>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "base/time_taylor.h"
 #include "dataset/lexer.h"
+#include "expression/program_shape.h"
 #include "target.h"
 
 namespace dynalin::fuzz {
