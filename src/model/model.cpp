@@ -79,27 +79,22 @@ double size_of_bodies(const Model& model, std::span<const MarkerId> markers) {
   return size.empty() ? 0.0 : ranked(size, size.size() / 2);
 }
 
-}  // namespace
-
-double Model::characteristic_length() const {
-  std::vector<MarkerId> all;
-  for (std::size_t k = 1; k < markers.size(); ++k) all.push_back(MarkerId{static_cast<std::int32_t>(k)});
-  return characteristic_length(all);
-}
-
-double Model::characteristic_length(std::span<const MarkerId> of) const {
-  // The exact diameter of n points costs n²; two sweeps from the farthest point are within a factor of √3 and
-  // the result is only a scale. Starting at the centroid makes it independent of numbering and placement.
+std::vector<Vector> origins_of(const Model& model, std::span<const MarkerId> markers) {
   std::vector<Vector> points;
-  points.reserve(of.size() + bodies.size());
-  for (const MarkerId id : of) {
-    const Marker& m = marker(id);
-    const Body& b = body(m.place.body);
+  points.reserve(markers.size());
+  for (const MarkerId id : markers) {
+    const Marker& m = model.marker(id);
+    const Body& b = model.body(m.place.body);
     if (!m.floating) points.push_back(b.pose.r + b.pose.R * m.place.p_BM);
   }
-  for (const Body& b : bodies)
-    if (b.mass > 0) points.push_back(b.pose.r + b.pose.R * b.p_BC);
-  if (points.size() < 2) return 1.0;
+  return points;
+}
+
+// The largest distance of two points, bounded by where most of them are and how large the bodies of the markers are.
+double extent_of(const Model& model, std::span<const MarkerId> markers, const std::vector<Vector>& points) {
+  // The exact diameter of n points costs n²; two sweeps from the farthest point are within a factor of √3 and
+  // the result is only a scale. Starting at the centroid makes it independent of numbering and placement.
+  if (points.size() < 2) return 0;
   const auto farthest = [&](const Vector& from) {
     return *std::max_element(points.begin(), points.end(), [&](const Vector& a, const Vector& b) {
       return dot(a - from, a - from) < dot(b - from, b - from);
@@ -114,11 +109,29 @@ double Model::characteristic_length(std::span<const MarkerId> of) const {
   // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Places
   // that nearly coincide are none either, but the bodies there are not so small.
   constexpr double farther = 1e4, coincide = 1e-3;
-  if (const double size = size_of_bodies(*this, of); size > 0) {
+  if (const double size = size_of_bodies(model, markers); size > 0) {
     length = std::min(length, farther * std::max(radius_of_most(points), size));
     if (length <= coincide * size) length = size;
   }
+  return length;
+}
+
+}  // namespace
+
+double Model::characteristic_length() const {
+  std::vector<MarkerId> all;
+  all.reserve(markers.size());
+  for (std::size_t k = 1; k < markers.size(); ++k) all.push_back(MarkerId{static_cast<std::int32_t>(k)});
+  const double length = extent_of(*this, all, origins_of(*this, all));
   return length > 0 ? length : 1.0;
+}
+
+double Model::characteristic_length(std::span<const MarkerId> of) const {
+  std::vector<Vector> points = origins_of(*this, of);
+  for (const Body& b : bodies)
+    if (b.mass > 0) points.push_back(b.pose.r + b.pose.R * b.p_BC);
+  const double length = extent_of(*this, of, points);
+  return length > 0 ? length : characteristic_length();
 }
 
 }  // namespace dynalin

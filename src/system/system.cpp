@@ -91,7 +91,7 @@ void System::scale_coordinates() {
     const MarkerId m{static_cast<std::int32_t>(k)};
     if (!signals_->wrenches_at(m).empty()) acted_on.push_back(m);
   }
-  length_ = acted_on.empty() ? model_->characteristic_length() : model_->characteristic_length(acted_on);
+  length_ = model_->characteristic_length(acted_on);
   // Markers that stand at one place of a curve but for rounding are no scale of what moves along it.
   constexpr double coincide = 1e-9;
   for (const CurvePoint& p : layout_.curve_points) {
