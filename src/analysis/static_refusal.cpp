@@ -124,7 +124,8 @@ Failure static_refusal(StaticEquations& equations, OperatingPoint op, const std:
   }
   // What nothing opposes where it comes closest to rest may be held elsewhere, but no search came there.
   if (const auto driven = unheld_everywhere(equations, {op}); !driven.empty()) {
-    f.message += fmt::format(": where it is closest to rest {}", fmt::join(driven, "; "));
+    f.message += fmt::format(": where it is closest to rest {}", fmt::join(driven, "; ")) +
+                 exhausted_friction(system, system.motion(op));
     return f;
   }
   settle(equations, op);

@@ -90,8 +90,10 @@ std::vector<Vector> origins_of(const Model& model, std::span<const MarkerId> mar
   return points;
 }
 
-// The largest distance of two points, bounded by where most of them are and how large the bodies of the markers are.
-double extent_of(const Model& model, std::span<const MarkerId> markers, const std::vector<Vector>& points) {
+// The largest distance of two points, bounded by where most of them are and how large the bodies of the markers are:
+// less than `coincide` of that is one place.
+double extent_of(const Model& model, std::span<const MarkerId> markers, const std::vector<Vector>& points,
+                 double coincide) {
   // The exact diameter of n points costs n²; two sweeps from the farthest point are within a factor of √3 and
   // the result is only a scale. Starting at the centroid makes it independent of numbering and placement.
   if (points.size() < 2) return 0;
@@ -106,9 +108,9 @@ double extent_of(const Model& model, std::span<const MarkerId> markers, const st
   const Vector b = farthest(a);
   const Vector c = farthest(b);
   double length = std::max(norm(b - a), norm(c - b));
-  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. Places
-  // that nearly coincide are none either, but the bodies there are not so small.
-  constexpr double farther = 1e4, coincide = 1e-3;
+  // A few that are drawn far out are no scale for all others: what is small beside them would count as nothing. One
+  // place is none either, but the bodies there are not so small.
+  constexpr double farther = 1e4;
   if (const double size = size_of_bodies(model, markers); size > 0) {
     length = std::min(length, farther * std::max(radius_of_most(points), size));
     if (length <= coincide * size) length = size;
@@ -122,7 +124,9 @@ double Model::characteristic_length() const {
   std::vector<MarkerId> all;
   all.reserve(markers.size());
   for (std::size_t k = 1; k < markers.size(); ++k) all.push_back(MarkerId{static_cast<std::int32_t>(k)});
-  const double length = extent_of(*this, all, origins_of(*this, all));
+  // Asked for while parts are read, whose mass centres may not be there yet: their size is not what it will be.
+  constexpr double rounding = 1e-12;
+  const double length = extent_of(*this, all, origins_of(*this, all), rounding);
   return length > 0 ? length : 1.0;
 }
 
@@ -130,7 +134,8 @@ double Model::characteristic_length(std::span<const MarkerId> of) const {
   std::vector<Vector> points = origins_of(*this, of);
   for (const Body& b : bodies)
     if (b.mass > 0) points.push_back(b.pose.r + b.pose.R * b.p_BC);
-  const double length = extent_of(*this, of, points);
+  constexpr double nearly_coincide = 1e-3;
+  const double length = extent_of(*this, of, points, nearly_coincide);
   return length > 0 ? length : characteristic_length();
 }
 

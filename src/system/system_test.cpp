@@ -48,11 +48,13 @@ TEST(System, displacements_compare_with_rotations_by_the_length_of_the_model) {
 
 TEST(System, a_few_markers_far_out_are_no_length_of_the_model) {
   const auto length = [](const std::string& far) {
-    return system_of(bodies + "MARKER/99, PART=1, QP=0,0," + far + "\n")->length();
+    return system_of(bodies + "MARKER/99, PART=1, QP=0,0," + far + "\nBUSHING/9, I=30, J=99, K=1,1,1\n")->length();
   };
   EXPECT_DOUBLE_EQ(length("400"), std::hypot(400.0, 4.0));
   EXPECT_LT(length("1E20"), 1e6);
   EXPECT_DOUBLE_EQ(length("1E20"), length("1E19"));
+  // Nor is one at which nothing acts.
+  EXPECT_DOUBLE_EQ(system_of(bodies + "MARKER/99, PART=1, QP=0,0,400\n")->length(), 5);
   // Those that stand at one place but for rounding are no length either.
   EXPECT_DOUBLE_EQ(system_of("PART/2, MASS=1, CM=20, IP=1,1,1, REULER=0,0.5,0\nMARKER/20, QP=0,0,-1\n"
                              "MARKER/21, QP=1.2E-16,0,0\nMARKER/22, QP=0,-3E-15,0\nMARKER/23\nMARKER/24\n")
