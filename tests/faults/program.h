@@ -48,6 +48,18 @@ inline void limit(int resource, rlim_t value) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
+// The process goes on as the program with these arguments, or as another one that the environment names.
+[[noreturn]] inline void become_program(const std::vector<std::string>& arguments) {
+  const char* other = std::getenv("DYNALIN_PROGRAM");
+  std::vector<std::string> words{other ? other : DYNALIN_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  ::execv(list[0], list.data());
+  ::_exit(98);
+}
+
 class Faults : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -86,14 +98,7 @@ class Faults : public ::testing::Test {
     constexpr unsigned longest = 30;  // seconds: what hangs is ended and seen as such
     ::alarm(longest);
     if (surroundings.prepare) surroundings.prepare();
-    const char* other = std::getenv("DYNALIN_PROGRAM");
-    std::vector<std::string> words{other ? other : DYNALIN_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> list;
-    for (std::string& word : words) list.push_back(word.data());
-    list.push_back(nullptr);
-    ::execv(list[0], list.data());
-    ::_exit(98);
+    become_program(arguments);
   }
   Outcome finish(pid_t child) const {
     int status = 0;

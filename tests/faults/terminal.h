@@ -24,13 +24,7 @@ class Terminal {
     ::setenv("TERM", "dumb", 1);
     ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
     ::alarm(50);
-    std::vector<std::string> words{DYNALIN_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> list;
-    for (std::string& word : words) list.push_back(word.data());
-    list.push_back(nullptr);
-    ::execv(list[0], list.data());
-    ::_exit(98);
+    become_program(arguments);
   }
   ~Terminal() {
     ::close(screen_);
