@@ -155,7 +155,7 @@ void sum(CardFields& c, Deck& deck) {
   if (c.good()) (c.name() == "MPCADD" ? deck.mpc_sums : deck.spc_sums).push_back(std::move(s));
 }
 
-constexpr CardKind kinds[] = {
+constexpr CardKind constraint_card_kinds[] = {
     {"MPC", mpc, list_in_rows},     {"MPCADD", sum, list_in_rows},       {"RBE2", rbe2, list_in_rows},
     {"RJOINT", rjoint, "xxxx----"}, {"RBAR", rbar, "xxxxxxxx|x-------"}, {"SPC", spc, "xxxxxxx-"},
     {"SPC1", spc1, list_in_rows},   {"SPCADD", sum, list_in_rows},
@@ -163,6 +163,6 @@ constexpr CardKind kinds[] = {
 
 }  // namespace
 
-std::span<const CardKind> constraint_cards() { return kinds; }
+std::span<const CardKind> constraint_cards() { return constraint_card_kinds; }
 
 }  // namespace dynalin::nastran_reader

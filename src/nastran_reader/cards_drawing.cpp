@@ -67,7 +67,7 @@ void material(CardFields& c, Deck& deck) {
   if (c.good()) deck.materials.push_back(std::move(m));
 }
 
-constexpr CardKind kinds[] = {
+constexpr CardKind drawing_card_kinds[] = {
     {"PLOTEL", element, "xxx-----"},          {"CROD", element, "xxxx----"},
     {"CTRIA3", element, "xxxxxxx-|xxxxxxxx"}, {"CQUAD4", element, "xxxxxxxx|xxxxxxxx"},
     {"PROD", rod_property, "xxxxxx--"},       {"PSHELL", shell_property, "xxxxxxxx|xxx-----"},
@@ -76,6 +76,6 @@ constexpr CardKind kinds[] = {
 
 }  // namespace
 
-std::span<const CardKind> drawing_cards() { return kinds; }
+std::span<const CardKind> drawing_cards() { return drawing_card_kinds; }
 
 }  // namespace dynalin::nastran_reader

@@ -37,7 +37,7 @@ void conm1(CardFields& c, Deck& deck) {
   if (c.good()) deck.masses.push_back(std::move(m));
 }
 
-ScalarElement::Kind kind_of(const std::string& name) {
+ScalarElement::Kind scalar_kind_of(const std::string& name) {
   return name.starts_with("CELAS")   ? ScalarElement::Kind::stiffness
          : name.starts_with("CDAMP") ? ScalarElement::Kind::damping
                                      : ScalarElement::Kind::mass;
@@ -47,7 +47,7 @@ ScalarElement::Kind kind_of(const std::string& name) {
 void scalar_element(CardFields& c, Deck& deck) {
   ScalarElement e;
   e.card = c.name();
-  e.kind = kind_of(c.name());
+  e.kind = scalar_kind_of(c.name());
   e.id = c.id(0, 2, "the number of the element");
   const char form = c.name().back();
   const bool by_property = form == '1' || form == '3';
@@ -155,7 +155,7 @@ void pbush(CardFields& c, Deck& deck) {
   if (c.good()) deck.bush_properties.push_back(std::move(p));
 }
 
-constexpr CardKind kinds[] = {
+constexpr CardKind element_card_kinds[] = {
     {"CONM2", conm2, "xxxxxxx-|xxxxxx--"},  {"CONM1", conm1, "xxxxxxxx|xxxxxxxx|xxxxxxxx"},
     {"CELAS1", scalar_element, "xxxxxx--"}, {"CELAS2", scalar_element, "xxxxxxxx"},
     {"CELAS3", scalar_element, "xxxx----"}, {"CELAS4", scalar_element, "xxxx----"},
@@ -170,6 +170,6 @@ constexpr CardKind kinds[] = {
 
 }  // namespace
 
-std::span<const CardKind> element_cards() { return kinds; }
+std::span<const CardKind> element_cards() { return element_card_kinds; }
 
 }  // namespace dynalin::nastran_reader

@@ -104,10 +104,10 @@ void param(CardFields& c, Deck& deck) {
   deck.parameters[name] = {value.text, value.at};
 }
 
-constexpr CardKind kinds[] = {{"DMIG", dmig, list_in_rows}, {"PARAM", param, "xxx-----"}};
+constexpr CardKind matrix_card_kinds[] = {{"DMIG", dmig, list_in_rows}, {"PARAM", param, "xxx-----"}};
 
 }  // namespace
 
-std::span<const CardKind> matrix_cards() { return kinds; }
+std::span<const CardKind> matrix_cards() { return matrix_card_kinds; }
 
 }  // namespace dynalin::nastran_reader

@@ -26,7 +26,7 @@ void scalar_points(CardFields& c, Deck& deck) {
   for (const Reference& id : ids) deck.scalars.push_back({id});
 }
 
-System::Kind kind_of(const std::string& name) {
+System::Kind system_kind_of(const std::string& name) {
   return name.back() == 'C'   ? System::Kind::cylindrical
          : name.back() == 'S' ? System::Kind::spherical
                               : System::Kind::rectangular;
@@ -34,7 +34,7 @@ System::Kind kind_of(const std::string& name) {
 
 void system_by_coordinates(CardFields& c, Deck& deck) {
   System s;
-  s.kind = kind_of(c.name());
+  s.kind = system_kind_of(c.name());
   s.id = c.id(0, 2, "the number of the system");
   s.reference = c.reference(0, 3, "RID");
   if (c.card().rows() < 2) {
@@ -55,14 +55,14 @@ void system_by_points(CardFields& c, Deck& deck) {
       break;
     }
     System s;
-    s.kind = kind_of(c.name());
+    s.kind = system_kind_of(c.name());
     s.id = c.id(0, first, "the number of the system");
     for (std::size_t k = 1; k <= 3; ++k) s.by_points.push_back(c.id(0, first + k, fmt::format("grid {}", k)));
     if (c.good()) deck.systems.push_back(std::move(s));
   }
 }
 
-constexpr CardKind kinds[] = {
+constexpr CardKind point_card_kinds[] = {
     {"GRID", grid, "xxxxxxxx"},
     {"SPOINT", scalar_points, list_in_rows},
     {"EPOINT", scalar_points, list_in_rows},
@@ -76,6 +76,6 @@ constexpr CardKind kinds[] = {
 
 }  // namespace
 
-std::span<const CardKind> point_cards() { return kinds; }
+std::span<const CardKind> point_cards() { return point_card_kinds; }
 
 }  // namespace dynalin::nastran_reader

@@ -190,7 +190,7 @@ void tabled1(CardFields& c, Deck& deck) {
   if (c.good()) deck.tables.push_back(std::move(t));
 }
 
-constexpr CardKind kinds[] = {
+constexpr CardKind response_card_kinds[] = {
     {"EIGC", eigc, "xxxxxxx-|xxxxxxx-+"},
     {"FREQ", freq, list_in_rows},
     {"FREQ1", freq1, "xxxx----"},
@@ -208,7 +208,7 @@ constexpr CardKind kinds[] = {
 
 }  // namespace
 
-std::span<const CardKind> response_cards() { return kinds; }
+std::span<const CardKind> response_cards() { return response_card_kinds; }
 
 double Table::at(double x) const {
   std::size_t k = 1;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "cases/newton_euler.h"
 #include "cases/run.h"
 
 namespace dynalin::cases {
@@ -64,20 +65,15 @@ class Foreign : public Cases {
       expected.erase(nearest);
     }
   }
-  // C (s − A)⁻¹ B + D at s = 2π i f.
-  static Eigen::MatrixXcd response(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::MatrixXd& C,
-                                   const Eigen::MatrixXd& D, double hz) {
-    const std::complex<double> s(0, 2 * std::numbers::pi * hz);
-    const Eigen::MatrixXcd shifted = s * Eigen::MatrixXcd::Identity(A.rows(), A.cols()) - A;
-    return C * shifted.partialPivLu().solve(B.cast<std::complex<double>>()) + D;
-  }
   // Of the matrices of a LINEAR/STATEMAT, entry by entry. What a low frequency leaves of D, nearly all of which it
   // cancels, is no better than derivatives by differences are.
   static void expect_response(const nlohmann::json& result, const std::vector<double>& hz,
                               const std::function<Eigen::MatrixXcd(double)>& expected, double relative) {
     for (const double f : hz) {
-      const Eigen::MatrixXcd ours = response(matrix(result, "A"), matrix(result, "B"), matrix(result, "C"),
-                                             matrix(result, "D"), f),
+      const auto given = [&](const char* name) -> newton_euler::MatX {
+        return matrix(result, name).cast<newton_euler::Real>();
+      };
+      const Eigen::MatrixXcd ours = newton_euler::response(given("A"), given("B"), given("C"), given("D"), f),
                              theirs = expected(f);
       const Eigen::MatrixXd D = matrix(result, "D");
       constexpr double of_cancelled = 1e-8;

@@ -183,17 +183,15 @@ class Antenna : public Foreign {
   static MatX damping_of_boom(const MatX& K) {
     MatX M = MatX::Zero(2, 2);
     for (const Node& p : boom()) M += p.mass / consistency * p.moves.transpose() * p.moves;
-    const MatX square = M.inverse() * K;
-    const Real product = std::sqrt(square.determinant());
+    const MatX square = solution(M, K);
+    const Real product = std::sqrt(square(0, 0) * square(1, 1) - square(0, 1) * square(1, 0));
     const MatX root = (square + product * MatX::Identity(2, 2)) / std::sqrt(square.trace() + 2 * product);
     return 2 * 0.012L * M * root;
   }
 
   struct Linear {
     MatX A, B, C, D;
-    Eigen::MatrixXcd at(double hz) const {
-      return response(A.cast<double>(), B.cast<double>(), C.cast<double>(), D.cast<double>(), hz);
-    }
+    Eigen::MatrixXcd at(double hz) const { return response(A, B, C, D, hz); }
   };
   // At the point of a result, which has to be one of rest.
   static Linear linear(const nlohmann::json& result, Real horn_mass, Real up, Real aside) {
@@ -216,7 +214,7 @@ class Antenna : public Foreign {
     const auto rates = n.rates_at(0);
     Linear l{n.by_state(rates, x, u), n.by_input(rates, x, u), {}, {}};
     // As far as a step of Newton's method leads from there: millimetres, radians.
-    const VecX step = l.A.fullPivLu().solve(rates(x, u));
+    const VecX step = solution(l.A, rates(x, u));
     EXPECT_LE(step.head(19).norm(), 1e-6L) << step.transpose();
     l.C = MatX::Zero(3, 42), l.D = MatX::Zero(3, 2);
     l.C(0, elevation) = 1, l.C(2, 40) = 1;

@@ -114,10 +114,7 @@ TEST_F(Bogie, bogie) {
     C(0, box_at + 1) = 1, C(1, coordinates + spin + 1) = 2.5L;
     const MatX B = n.by_input(n.rates_at(0), x, none);
     expect_response(
-        last_with(r, "A"), {0.2, 1.1, 4.0, 15.0},
-        [&](double hz) {
-          return response(A.cast<double>(), B.cast<double>(), C.cast<double>(), Eigen::MatrixXd::Zero(2, 1), hz);
-        },
+        last_with(r, "A"), {0.2, 1.1, 4.0, 15.0}, [&](double hz) { return response(A, B, C, MatX::Zero(2, 1), hz); },
         1e-7);
   }
   EXPECT_TRUE(r.wrote("bogie.res"));

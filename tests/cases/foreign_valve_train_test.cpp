@@ -32,7 +32,7 @@ class ClosedSpline {
       A(i, before) += 1, A(i, i) += 4, A(i, behind) += 1;
       b.row(i) = 6 * (p_.row(before) - 2 * p_.row(i) + p_.row(behind));
     }
-    m_ = A.partialPivLu().solve(b);
+    m_ = solution(A, b);
   }
   Real turn() const { return static_cast<Real>(p_.rows()); }
   PlanePoint at(Real u) const {
@@ -258,9 +258,7 @@ TEST_F(ValveTrain, valve_train) {
     expect_spectrum(*modes[rest ? 4 : 3], spectrum(A), 1e-7, 0);
     const MatX C = both.by_state(outputs, there, none), D = both.by_input(outputs, there, none);
     expect_response(
-        *matrices[rest ? 1 : 0], {0.3, 11.0, 90.0, 420.0},
-        [&](double hz) { return response(A.cast<double>(), B.cast<double>(), C.cast<double>(), D.cast<double>(), hz); },
-        1e-6);
+        *matrices[rest ? 1 : 0], {0.3, 11.0, 90.0, 420.0}, [&](double hz) { return response(A, B, C, D, hz); }, 1e-6);
     if (rest) {
       const VecX found = both.rest(there, none, 0);
       EXPECT_NEAR(static_cast<double>(found(0)), static_cast<double>(there(0)), 1e-10);

@@ -21,15 +21,10 @@ using MatX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 inline constexpr Real pi_l = std::numbers::pi_v<Real>;
 
-inline Mat3 about(const Vec3& axis, Real angle) { return Eigen::AngleAxis<Real>(angle, axis).toRotationMatrix(); }
+Mat3 about(const Vec3& axis, Real angle);
 // Of 3-1-3 angles in degrees: its columns are the turned axes.
-inline Mat3 euler(Real psi, Real theta, Real phi) {
-  const Real d = pi_l / 180;
-  return about(Vec3::UnitZ(), psi * d) * about(Vec3::UnitX(), theta * d) * about(Vec3::UnitZ(), phi * d);
-}
-inline Mat3 exponential(const Vec3& v) {
-  return v.norm() == 0 ? Mat3(Mat3::Identity()) : about(v.normalized(), v.norm());
-}
+Mat3 euler(Real psi, Real theta, Real phi);
+Mat3 exponential(const Vec3& v);
 inline Vec3 axial(const Mat3& a) {  // of its skew part
   return Vec3(a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1)) / 2;
 }
@@ -103,159 +98,46 @@ class NewtonEuler {
 
   Eigen::Index size() const { return scale.size(); }
 
-  State at(const VecX& x, const VecX& u, Real time) const {
-    const Eigen::Index n = size();
-    State s{x.head(n), x.segment(n, n), x.tail(states), u, time, {}};
-    const std::vector<Pose> now = poses(s.q, time);
-    const Moved ahead = along(s.q, s.rate, 1, time);
-    for (std::size_t b = 0; b < now.size(); ++b) {
-      Point p;
-      p.p = now[b].p, p.R = now[b].R;
-      p.v = ahead.first.col(static_cast<Eigen::Index>(4 * b));
-      p.w = axial(block(ahead.first, b) * now[b].R.transpose());
-      s.bodies.push_back(p);
-    }
-    return s;
-  }
+  State at(const VecX& x, const VecX& u, Real time) const;
   // x'.
-  VecX rates(const VecX& x, const VecX& u, Real time) const {
-    const Eigen::Index n = size();
-    const State s = at(x, u, time);
-    Loads load(bodies.size(), n, states);
-    loads(s, load);
-    const Moved ahead = along(s.q, s.rate, 1, time);
-    std::vector<Moved> ways;
-    for (Eigen::Index k = 0; k < n; ++k) ways.push_back(along(s.q, VecX::Unit(n, k), 0, time));
-    MatX M = MatX::Zero(n, n);
-    VecX f = load.along;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const Point& p = s.bodies[b];
-      const auto column = static_cast<Eigen::Index>(4 * b);
-      Columns moves(3, n), turns(3, n);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        const Columns& way = ways[static_cast<std::size_t>(k)].first;
-        moves.col(k) = way.col(column), turns.col(k) = axial(block(way, b) * p.R.transpose());
-      }
-      const Mat3 J = p.R * bodies[b].inertia * p.R.transpose() / consistency;
-      const Real m = bodies[b].mass / consistency;
-      // What accelerates with the second rates of the coordinates at zero: R'' Rᵀ has α as its skew part.
-      const Vec3 a = ahead.second.col(column), alpha = axial(block(ahead.second, b) * p.R.transpose());
-      f += moves.transpose() * (load.wrench_[b].head<3>() - m * a) +
-           turns.transpose() * (load.wrench_[b].tail<3>() - J * alpha - p.w.cross(J * p.w));
-      M += m * moves.transpose() * moves + turns.transpose() * J * turns;
-    }
-    VecX out(x.size());
-    out << s.rate, M.ldlt().solve(f), load.rates;
-    return out;
-  }
+  VecX rates(const VecX& x, const VecX& u, Real time) const;
   // Of the mass centre.
-  Vec3 acceleration(std::size_t body, const VecX& x, const VecX& u, Real time) const {
-    const Eigen::Index n = size();
-    const auto column = static_cast<Eigen::Index>(4 * body);
-    const VecX faster = rates(x, u, time).segment(n, n);
-    return along(x.head(n), x.segment(n, n), 1, time).second.col(column) +
-           along(x.head(n), faster, 0, time).first.col(column);
-  }
+  Vec3 acceleration(std::size_t body, const VecX& x, const VecX& u, Real time) const;
 
   // ∂f/∂x and ∂f/∂u of any function of x, u.
   using Function = std::function<VecX(const VecX& x, const VecX& u)>;
-  MatX by_state(const Function& f, const VecX& x, const VecX& u) const {
-    MatX a(f(x, u).size(), x.size());
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const Real h = (k < 2 * size() ? scale(k % size()) : 1) * step;
-      a.col(k) = first_difference([&](Real d) -> VecX { return f(x + d * VecX::Unit(x.size(), k), u); }, h);
-    }
-    return a;
-  }
-  MatX by_input(const Function& f, const VecX& x, const VecX& u) const {
-    MatX b(f(x, u).size(), u.size());
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      b.col(k) = first_difference([&](Real d) -> VecX { return f(x, u + d * VecX::Unit(u.size(), k)); }, step);
-    return b;
-  }
+  MatX by_state(const Function& f, const VecX& x, const VecX& u) const;
+  MatX by_input(const Function& f, const VecX& x, const VecX& u) const;
   Function rates_at(Real time) const {
     return [this, time](const VecX& x, const VecX& u) { return rates(x, u, time); };
   }
   // Of rest, by Newton's method from `x`: positions and states of controllers.
-  VecX rest(VecX x, const VecX& u, Real time) const {
-    const Eigen::Index n = size();
-    x.segment(n, n).setZero();
-    for (int k = 0; k < 30; ++k) {
-      const VecX f = rates(x, u, time);
-      const MatX A = by_state(rates_at(time), x, u);
-      MatX J(n + states, n + states);
-      J << A.block(n, 0, n, n), A.block(n, 2 * n, n, states), A.block(2 * n, 0, states, n),
-          A.block(2 * n, 2 * n, states, states);
-      const VecX d = J.fullPivLu().solve(f.tail(n + states));
-      x.head(n) -= d.head(n), x.tail(states) -= d.tail(states);
-      if (d.norm() < 1e-14L * (1 + x.norm())) break;
-    }
-    return x;
-  }
+  VecX rest(VecX x, const VecX& u, Real time) const;
 
  private:
-  static constexpr Real step = 0.01L;
   using Columns = Eigen::Matrix<Real, 3, Eigen::Dynamic>;  // p and R of one body after the other
   struct Moved {
     Columns first, second;
   };
-  static Mat3 block(const Columns& c, std::size_t body) {
-    return c.middleCols<3>(static_cast<Eigen::Index>(4 * body + 1));
-  }
+  static Mat3 block(const Columns& c, std::size_t body);
   // Both derivatives of all poses along `way` and, with `clock` 1, time.
-  Moved along(const VecX& q, const VecX& way, Real clock, Real time) const {
-    Real largest = clock / time_scale;
-    for (Eigen::Index k = 0; k < q.size(); ++k) largest = std::max(largest, std::abs(way(k)) / scale(k));
-    const Real h = step / (largest == 0 ? 1 : largest);
-    const auto places = [&](Real s) -> Columns {
-      const std::vector<Pose> at = poses(q + s * way, time + clock * s);
-      Columns c(3, static_cast<Eigen::Index>(4 * at.size()));
-      for (std::size_t b = 0; b < at.size(); ++b) {
-        c.col(static_cast<Eigen::Index>(4 * b)) = at[b].p;
-        c.middleCols<3>(static_cast<Eigen::Index>(4 * b + 1)) = at[b].R;
-      }
-      return c;
-    };
-    return {first_difference(places, h), clock == 0 ? Columns() : second_difference(places, h)};
-  }
+  Moved along(const VecX& q, const VecX& way, Real clock, Real time) const;
 };
 
 // On a body, `at` and `axes` in its own.
-inline NewtonEuler::Point marker(const NewtonEuler::Point& body, const Vec3& at, const Mat3& axes = Mat3::Identity()) {
-  NewtonEuler::Point f;
-  f.p = body.of(at), f.R = body.R * axes, f.v = body.speed(at), f.w = body.w;
-  return f;
-}
+NewtonEuler::Point marker(const NewtonEuler::Point& body, const Vec3& at, const Mat3& axes = Mat3::Identity());
 // Displacements and projected angles of I in J, and velocities and angular velocities as J sees them.
 struct Relative {
   Vec6 at, rate;
 };
-inline Relative relative(const NewtonEuler::Point& I, const NewtonEuler::Point& J) {
-  const Mat3 R = J.R.transpose() * I.R;
-  Relative r;
-  r.at.head<3>() = J.R.transpose() * (I.p - J.p);
-  r.at.tail<3>() = Vec3(std::atan2(-R(1, 2), R(2, 2)), std::atan2(R(0, 2), R(2, 2)), std::atan2(R(1, 0), R(0, 0)));
-  r.rate.head<3>() = J.R.transpose() * (I.v - J.v - J.w.cross(I.p - J.p));
-  r.rate.tail<3>() = J.R.transpose() * (I.w - J.w);
-  return r;
-}
+Relative relative(const NewtonEuler::Point& I, const NewtonEuler::Point& J);
 
 // Cycles per unit of time.
-inline std::vector<std::complex<double>> spectrum(MatX A) {
-  // Rows and columns of like size: controllers count in other units than millimetres and radians.
-  for (int sweep = 0; sweep < 10; ++sweep) {
-    for (Eigen::Index k = 0; k < A.rows(); ++k) {
-      const Real own = std::abs(A(k, k)), row = A.row(k).lpNorm<1>() - own, column = A.col(k).lpNorm<1>() - own;
-      if (row <= 0 || column <= 0) continue;
-      const Real factor = std::exp2(std::round(std::log2(row / column) / 2));
-      A.col(k) *= factor, A.row(k) /= factor;
-    }
-  }
-  const Eigen::EigenSolver<MatX> solver(A, false);
-  std::vector<std::complex<double>> values;
-  for (const auto& v : solver.eigenvalues())
-    values.emplace_back(static_cast<double>(v.real() / (2 * pi_l)), static_cast<double>(v.imag() / (2 * pi_l)));
-  return values;
-}
+std::vector<std::complex<double>> spectrum(MatX A);
+
+// x of A x = b, with full pivoting.
+MatX solution(const MatX& A, const MatX& b);
+// C (s − A)⁻¹ B + D at s = 2π i f.
+Eigen::MatrixXcd response(const MatX& A, const MatX& B, const MatX& C, const MatX& D, Real hz);
 
 }  // namespace dynalin::cases::newton_euler

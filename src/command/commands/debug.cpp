@@ -13,7 +13,7 @@ class Debug final : public SettingOf<WrittenDebug> {
   }
 };
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto debug_rows = std::to_array<SettingRow>({
     {"EPRINT", "EPRINT NOEPRINT", "NOEPRINT"},
     {"VERBOSE", "VERBOSE NOVERBOSE", "NOVERBOSE"},
     {"DUMP", "DUMP NODUMP", "NODUMP"},
@@ -29,7 +29,7 @@ constexpr auto rows = std::to_array<SettingRow>({
 
 std::span<const CommandKind> debug() {
   static constexpr CommandKind kind =
-      setting<Debug>("DEBUG", "how much of its work a solver prints", "DEBUG/EPRINT", {.rows = rows});
+      setting<Debug>("DEBUG", "how much of its work a solver prints", "DEBUG/EPRINT", {.rows = debug_rows});
   return {&kind, 1};
 }
 

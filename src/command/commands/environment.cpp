@@ -9,28 +9,28 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct EnvironmentArguments {
   std::string name, value;
 
-  using W = Written;
+  using W = EnvironmentArguments;
   static constexpr std::array<Argument<W>, 2> arguments = {{
       {.name = "NAME", .slot = &W::name, .required = true, .help = "an environment variable, for the rest of the run"},
       {.name = "VALUE", .slot = &W::value, .help = "it counts as set whatever the value is"},
   }};
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_environment(CommandReader& reader) {
+  EnvironmentArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   return std::make_shared<SetEnvironment>(std::move(w.name));
 }
 
-constexpr CommandKind kind = {.name = "ENVIRONMENT",
-                              .use = CommandUse::run,
-                              .summary = "sets an environment variable that LINEAR or statics look at",
-                              .example = "ENVIRONMENT/NAME=MSC_LINEAR_PBCS_STATES, VALUE=1",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind environment_kind = {.name = "ENVIRONMENT",
+                                          .use = CommandUse::run,
+                                          .summary = "sets an environment variable that LINEAR or statics look at",
+                                          .example = "ENVIRONMENT/NAME=MSC_LINEAR_PBCS_STATES, VALUE=1",
+                                          .arguments = detail::argument_infos<EnvironmentArguments>,
+                                          .read = read_environment};
 
 }  // namespace
 
@@ -42,6 +42,6 @@ StudyResult<void> SetEnvironment::run(RunState& run) const {
   return {};
 }
 
-std::span<const CommandKind> environment() { return {&kind, 1}; }
+std::span<const CommandKind> environment() { return {&environment_kind, 1}; }
 
 }  // namespace dynalin::commands

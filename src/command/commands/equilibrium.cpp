@@ -11,7 +11,7 @@ namespace dynalin::commands {
 
 namespace {
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto equilibrium_rows = std::to_array<SettingRow>({
     {"ALIMIT", "ALIMIT", "0.174533 (rad)", Shown::angle},
     {"ERROR", "ERROR", "0.000100", Shown::number},
     {"IMBALANCE", "IMBALANCE", "0.000100", Shown::number},
@@ -28,7 +28,7 @@ constexpr auto rows = std::to_array<SettingRow>({
 });
 
 // What holds where other arguments decide: defaults that follow them, and statements that they leave without effect.
-std::optional<std::string> held(std::string_view label, bool stated, const Settings& settings) {
+std::optional<std::string> equilibrium_held(std::string_view label, bool stated, const Settings& settings) {
   const StaticsOptions options = statics_options(settings.equilibrium);
   const bool newton = options.original.has_value();
   const OriginalMethod method = options.original.value_or(OriginalMethod());
@@ -61,13 +61,13 @@ SettingLines motion_lines(const Settings& settings) {
   return lines;
 }
 
-constexpr SettingList list{.rows = rows, .held = held, .more = motion_lines};
+constexpr SettingList equilibrium_list{.rows = equilibrium_rows, .held = equilibrium_held, .more = motion_lines};
 
 }  // namespace
 
 std::span<const CommandKind> equilibrium() {
-  static constexpr CommandKind kind =
-      setting<Equilibrium>("EQUILIBRIUM", "how SIMULATE/STATICS searches", "EQUILIBRIUM/MAXIT=100, ALIMIT=5D", list);
+  static constexpr CommandKind kind = setting<Equilibrium>("EQUILIBRIUM", "how SIMULATE/STATICS searches",
+                                                           "EQUILIBRIUM/MAXIT=100, ALIMIT=5D", equilibrium_list);
   return {&kind, 1};
 }
 

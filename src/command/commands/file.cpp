@@ -7,10 +7,10 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct FileArguments {
   std::string command, model, prefix;
 
-  using W = Written;
+  using W = FileArguments;
   static constexpr std::array<Argument<W>, 3> arguments = {{
       {.name = "COMMAND",
        .slot = &W::command,
@@ -22,8 +22,8 @@ struct Written {
   }};
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_file(CommandReader& reader) {
+  FileArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   const bool names_none = w.command.empty() && w.model.empty();
   if (names_none || (w.model.empty() && !w.prefix.empty())) {
@@ -38,15 +38,15 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return action;
 }
 
-constexpr CommandKind kind = {.name = "FILE",
-                              .use = CommandUse::run,
-                              .summary = "names the dataset, or a further command file",
-                              .example = "FILE/MODEL=car, OUTPUT_PREFIX=car_loaded",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind file_kind = {.name = "FILE",
+                                   .use = CommandUse::run,
+                                   .summary = "names the dataset, or a further command file",
+                                   .example = "FILE/MODEL=car, OUTPUT_PREFIX=car_loaded",
+                                   .arguments = detail::argument_infos<FileArguments>,
+                                   .read = read_file};
 
 }  // namespace
 
-std::span<const CommandKind> file() { return {&kind, 1}; }
+std::span<const CommandKind> file() { return {&file_kind, 1}; }
 
 }  // namespace dynalin::commands

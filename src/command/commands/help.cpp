@@ -38,7 +38,7 @@ class Help final : public CommandAction {
   bool menu_;
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+std::shared_ptr<const CommandAction> read_help(CommandReader& reader) {
   const auto& arguments = reader.statement().arguments;
   const bool menu = reader.statement().name == "MENU";
   const std::size_t most = menu ? 0 : 2;
@@ -56,22 +56,22 @@ constexpr std::array<ArgumentInfo, 1> help_arguments = {
       .is_flag = true,
       .help = "a statement, command or function, or one and a type of it; without one the list of all"}}};
 
-constexpr std::array kinds = {
+constexpr std::array help_kinds = {
     CommandKind{.name = "HELP",
                 .use = CommandUse::information,
                 .summary = "at a prompt: what a statement, command or function takes",
                 .example = "HELP LINEAR",
                 .arguments = help_arguments,
-                .read = read},
+                .read = read_help},
     CommandKind{.name = "MENU",
                 .use = CommandUse::information,
                 .summary = "at a prompt: the commands that there are",
                 .example = "MENU",
-                .read = read},
+                .read = read_help},
 };
 
 }  // namespace
 
-std::span<const CommandKind> help() { return kinds; }
+std::span<const CommandKind> help() { return help_kinds; }
 
 }  // namespace dynalin::commands

@@ -10,11 +10,11 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct InfoArguments {
   bool displacement = false, velocity = false, acceleration = false, force = false;
   std::optional<std::int64_t> i, j, rm;
 
-  using W = Written;
+  using W = InfoArguments;
   static constexpr std::array<Argument<W>, 7> arguments = {{
       {.name = "DISPLACEMENT", .slot = &W::displacement, .help = "the place, and angles psi, theta, phi [rad]"},
       {.name = "VELOCITY", .slot = &W::velocity, .help = "velocity and angular velocity"},
@@ -88,8 +88,8 @@ class Info final : public CommandAction {
   std::int64_t i_, j_, rm_;
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_info(CommandReader& reader) {
+  InfoArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   const std::array<bool, 4> asked = {w.displacement, w.velocity, w.acceleration, w.force};
   if (std::count(asked.begin(), asked.end(), true) != 1) {
@@ -106,15 +106,15 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return std::make_shared<Info>(quantities[which], *w.i, w.j.value_or(0), w.rm.value_or(0));
 }
 
-constexpr CommandKind kind = {.name = "INFO",
-                              .use = CommandUse::information,
-                              .summary = "prints how a marker stands, moves or is loaded",
-                              .example = "INFO/DISPLACEMENT, I=20, J=10, RM=10",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind info_kind = {.name = "INFO",
+                                   .use = CommandUse::information,
+                                   .summary = "prints how a marker stands, moves or is loaded",
+                                   .example = "INFO/DISPLACEMENT, I=20, J=10, RM=10",
+                                   .arguments = detail::argument_infos<InfoArguments>,
+                                   .read = read_info};
 
 }  // namespace
 
-std::span<const CommandKind> info() { return {&kind, 1}; }
+std::span<const CommandKind> info() { return {&info_kind, 1}; }
 
 }  // namespace dynalin::commands

@@ -16,7 +16,7 @@ class InitialConditions final : public SettingOf<WrittenInitialConditions> {
   }
 };
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto ic_rows = std::to_array<SettingRow>({
     {"ALIMIT", "ALIMIT", "0.500000 (rad)", Shown::angle},
     {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
     {"MAXIT", "MAXIT", "50"},
@@ -28,18 +28,18 @@ constexpr auto rows = std::to_array<SettingRow>({
     {"APATTERN", "APATTERN", without_effect, Shown::pattern},
 });
 
-std::optional<std::string> held(std::string_view label, bool stated, const Settings& settings) {
+std::optional<std::string> ic_held(std::string_view label, bool stated, const Settings& settings) {
   if (stated || (label != "VERROR" && label != "AERROR")) return std::nullopt;
   return shown_number(std::max(100 * settings.initial_conditions.error.value_or(1e-10), 1e-8), Shown::exponent);
 }
 
-constexpr SettingList list{.rows = rows, .held = held};
+constexpr SettingList ic_list{.rows = ic_rows, .held = ic_held};
 
 }  // namespace
 
 std::span<const CommandKind> initial_conditions() {
-  static constexpr CommandKind kind =
-      setting<InitialConditions>("IC", "how far constraints may be from agreeing at the start", "IC/ERROR=1E-6", list);
+  static constexpr CommandKind kind = setting<InitialConditions>(
+      "IC", "how far constraints may be from agreeing at the start", "IC/ERROR=1E-6", ic_list);
   return {&kind, 1};
 }
 

@@ -5,7 +5,7 @@ namespace dynalin::commands {
 
 namespace {
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto integrator_rows = std::to_array<SettingRow>({
     {"TYPE", "GSTIFF WSTIFF HASTIFF DSTIFF HHT NEWMARK ABAM RKF45 CONSTANT_BDF", "IDA"},
     {"FORMULATION", "I3 SI2 SI1", "SI2"},
     {"CORRECTOR", "CORRECTOR", without_effect},
@@ -25,19 +25,19 @@ constexpr auto rows = std::to_array<SettingRow>({
     {"MAXERR", "MAXERR", without_effect, Shown::exponent},
 });
 
-std::optional<std::string> held(std::string_view label, bool stated, const Settings& settings) {
+std::optional<std::string> integrator_held(std::string_view label, bool stated, const Settings& settings) {
   if (stated || label != "HMAX" || !settings.integrator.interpolate.value_or(false)) return std::nullopt;
   return "none";
 }
 
 constexpr std::array<std::string_view, 2> shorthands = {"GSTIFF", "WSTIFF"};
-constexpr SettingList list{.rows = rows, .held = held, .shorthands = shorthands};
+constexpr SettingList integrator_list{.rows = integrator_rows, .held = integrator_held, .shorthands = shorthands};
 
 }  // namespace
 
 std::span<const CommandKind> integrator() {
-  static constexpr CommandKind kind =
-      setting<Integrator>("INTEGRATOR", "how SIMULATE/DYNAMICS integrates", "INTEGRATOR/GSTIFF, ERROR=1E-4", list);
+  static constexpr CommandKind kind = setting<Integrator>("INTEGRATOR", "how SIMULATE/DYNAMICS integrates",
+                                                          "INTEGRATOR/GSTIFF, ERROR=1E-4", integrator_list);
   return {&kind, 1};
 }
 

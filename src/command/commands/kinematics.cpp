@@ -11,7 +11,7 @@ class Kinematics final : public SettingOf<WrittenKinematics> {
   void apply(RunState& run) const override { written.apply(run.settings); }
 };
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto kinematics_rows = std::to_array<SettingRow>({
     {"ALIMIT", "ALIMIT", "0.523599 (rad)", Shown::angle},
     {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
     {"MAXIT", "MAXIT", "25"},
@@ -24,18 +24,18 @@ constexpr auto rows = std::to_array<SettingRow>({
 });
 
 // Constraints agree as well as those of the initial conditions.
-std::optional<std::string> held(std::string_view label, bool stated, const Settings& settings) {
+std::optional<std::string> kinematics_held(std::string_view label, bool stated, const Settings& settings) {
   if (stated || label != "ERROR") return std::nullopt;
   return shown_number(settings.initial_conditions.error.value_or(1e-10), Shown::exponent);
 }
 
-constexpr SettingList list{.rows = rows, .held = held};
+constexpr SettingList kinematics_list{.rows = kinematics_rows, .held = kinematics_held};
 
-constexpr CommandKind kind = setting<Kinematics>("KINEMATICS", "how SIMULATE/KINEMATICS goes through time",
-                                                 "KINEMATICS/HMAX=0.01, MAXIT=10", list);
+constexpr CommandKind kinematics_kind = setting<Kinematics>("KINEMATICS", "how SIMULATE/KINEMATICS goes through time",
+                                                            "KINEMATICS/HMAX=0.01, MAXIT=10", kinematics_list);
 
 }  // namespace
 
-std::span<const CommandKind> kinematics() { return {&kind, 1}; }
+std::span<const CommandKind> kinematics() { return {&kinematics_kind, 1}; }
 
 }  // namespace dynalin::commands

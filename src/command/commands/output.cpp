@@ -6,7 +6,7 @@ namespace dynalin::commands {
 
 namespace {
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto output_rows = std::to_array<SettingRow>({
     {"request file", "REQSAVE NOREQSAVE", "NOREQSAVE"},
     {"graphics file", "GRSAVE NOGRSAVE", "NOGRSAVE"},
     {"tables", "PRINT NOPRINT", "PRINT where an OUTPUT asks for anything"},
@@ -22,7 +22,7 @@ constexpr auto rows = std::to_array<SettingRow>({
     {"FZERO", "FZERO", "none"},
 });
 
-constexpr SettingList list{.rows = rows};
+constexpr SettingList output_list{.rows = output_rows};
 
 class Output final : public SettingOf<WrittenOutput> {
  public:
@@ -42,8 +42,8 @@ class Output final : public SettingOf<WrittenOutput> {
 }  // namespace
 
 std::span<const CommandKind> output() {
-  static constexpr CommandKind kind =
-      setting<Output>("OUTPUT", "which files of requests and graphics are written", "OUTPUT/REQSAVE, NOPRINT", list);
+  static constexpr CommandKind kind = setting<Output>("OUTPUT", "which files of requests and graphics are written",
+                                                      "OUTPUT/REQSAVE, NOPRINT", output_list);
   return {&kind, 1};
 }
 

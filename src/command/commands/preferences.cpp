@@ -22,7 +22,7 @@ class Preferences final : public SettingOf<WrittenPreferences> {
   }
 };
 
-constexpr auto rows = std::to_array<SettingRow>({
+constexpr auto preferences_rows = std::to_array<SettingRow>({
     {"SOLVER", "SOLVER", "CXX"},
     {"SIMEXIT", "SIMEXIT", "OFF"},
     {"STATUS_MESSAGE", "STATUS_MESSAGE", "ON"},
@@ -38,7 +38,7 @@ constexpr auto rows = std::to_array<SettingRow>({
 std::span<const CommandKind> preferences() {
   static constexpr CommandKind kind =
       setting<Preferences>("PREFERENCES", "of the session: its end after a failure, its status line",
-                           "PREFERENCES/SIMEXIT=ON", {.rows = rows});
+                           "PREFERENCES/SIMEXIT=ON", {.rows = preferences_rows});
   return {&kind, 1};
 }
 

@@ -29,7 +29,7 @@ class Redefine final : public Edit {
   }
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+std::shared_ptr<const CommandAction> read_redefine(CommandReader& reader) {
   const auto& arguments = reader.statement().arguments;
   if (!arguments.empty() && std::ranges::all_of(arguments, is_list)) return list_of_statement(reader.statement());
   return std::make_shared<Redefine>(reader.statement());
@@ -48,7 +48,7 @@ std::span<const CommandKind> redefine() {
   static const auto kinds = [] {
     std::vector<CommandKind> list;
     for (const std::string_view name : redefinable_statements())
-      list.push_back({.name = name, .use = CommandUse::model, .example = example_of(name), .read = read});
+      list.push_back({.name = name, .use = CommandUse::model, .example = example_of(name), .read = read_redefine});
     return list;
   }();
   return kinds;

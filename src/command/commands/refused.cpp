@@ -11,7 +11,7 @@ constexpr CommandKind refused_for(std::string_view name, std::string_view reason
   return {.name = name, .use = CommandUse::refused, .summary = reason, .example = example};
 }
 
-constexpr std::array kinds = {
+constexpr std::array refused_kinds = {
     refused_for("CONTROL", "a compiled routine would give the commands, and routines are called by statements alone",
                 "CONTROL/FUNCTION=USER(1)"),
     refused_for("SYSTEM", "a command file runs no programs of the operating system", "SYSTEM"),
@@ -19,6 +19,6 @@ constexpr std::array kinds = {
 
 }  // namespace
 
-std::span<const CommandKind> refused() { return kinds; }
+std::span<const CommandKind> refused() { return refused_kinds; }
 
 }  // namespace dynalin::commands

@@ -12,11 +12,11 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct ReloadArguments {
   bool system = false, states = false;
   std::string file, prefix, title;
 
-  using W = Written;
+  using W = ReloadArguments;
   static constexpr std::array<Argument<W>, 5> arguments = {{
       {.name = "SYSTEM", .slot = &W::system, .help = "model, settings and states of a file of SAVE/SYSTEM"},
       {.name = "STATES",
@@ -28,8 +28,8 @@ struct Written {
   }};
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_reload(CommandReader& reader) {
+  ReloadArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   if (w.system == w.states) {
     reader.error("missing-option", reader.statement().at, "RELOAD takes exactly one of SYSTEM and STATES");
@@ -46,12 +46,12 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return action;
 }
 
-constexpr CommandKind kind = {.name = "RELOAD",
-                              .use = CommandUse::run,
-                              .summary = "goes on from what SAVE has written",
-                              .example = "RELOAD/STATES, FILE=braking.save",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind reload_kind = {.name = "RELOAD",
+                                     .use = CommandUse::run,
+                                     .summary = "goes on from what SAVE has written",
+                                     .example = "RELOAD/STATES, FILE=braking.save",
+                                     .arguments = detail::argument_infos<ReloadArguments>,
+                                     .read = read_reload};
 
 }  // namespace
 
@@ -81,6 +81,6 @@ StudyResult<void> Reload::run(RunState& run) const {
   return {};
 }
 
-std::span<const CommandKind> reload() { return {&kind, 1}; }
+std::span<const CommandKind> reload() { return {&reload_kind, 1}; }
 
 }  // namespace dynalin::commands

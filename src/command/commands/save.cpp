@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Written {
+struct SaveArguments {
   bool system = false, states = false;
   std::string file, title;
 
-  using W = Written;
+  using W = SaveArguments;
   static constexpr std::array<Argument<W>, 4> arguments = {{
       {.name = "SYSTEM", .slot = &W::system, .help = "the model as it is now, its settings, and the states"},
       {.name = "STATES", .slot = &W::states, .help = "time and all values of the point"},
@@ -35,8 +35,8 @@ struct Written {
   }};
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_save(CommandReader& reader) {
+  SaveArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   if (w.system == w.states) {
     reader.error("missing-option", reader.statement().at, "SAVE takes exactly one of SYSTEM and STATES");
@@ -68,12 +68,12 @@ SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
 
 StudyFailure failure(std::string why) { return StudyFailure({"saving", std::move(why), {}, "unwritable-file"}); }
 
-constexpr CommandKind kind = {.name = "SAVE",
-                              .use = CommandUse::run,
-                              .summary = "writes the point, or model and point, for RELOAD",
-                              .example = "SAVE/STATES, FILE=braking.save",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind save_kind = {.name = "SAVE",
+                                   .use = CommandUse::run,
+                                   .summary = "writes the point, or model and point, for RELOAD",
+                                   .example = "SAVE/STATES, FILE=braking.save",
+                                   .arguments = detail::argument_infos<SaveArguments>,
+                                   .read = read_save};
 
 }  // namespace
 
@@ -101,6 +101,6 @@ StudyResult<void> Save::run(RunState& run) const {
   return {};
 }
 
-std::span<const CommandKind> save() { return {&kind, 1}; }
+std::span<const CommandKind> save() { return {&save_kind, 1}; }
 
 }  // namespace dynalin::commands

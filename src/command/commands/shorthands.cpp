@@ -6,7 +6,7 @@ namespace dynalin::commands {
 
 namespace {
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+std::shared_ptr<const CommandAction> read_shorthand(CommandReader& reader) {
   Statement whole = reader.statement();
   whole.name = "INTEGRATOR";
   WrittenArgument type;
@@ -24,16 +24,16 @@ constexpr CommandKind shorthand(std::string_view name, std::string_view summary,
           .example = example,
           .arguments = detail::argument_infos<WrittenIntegrator>,
           .acting = WrittenIntegrator::acting,
-          .read = read};
+          .read = read_shorthand};
 }
 
-constexpr std::array kinds = {
+constexpr std::array shorthand_kinds = {
     shorthand("GSTIFF", "INTEGRATOR/GSTIFF in short", "GSTIFF/ERROR=1E-4"),
     shorthand("WSTIFF", "INTEGRATOR/WSTIFF in short", "WSTIFF/ERROR=1E-4"),
 };
 
 }  // namespace
 
-std::span<const CommandKind> shorthands() { return kinds; }
+std::span<const CommandKind> shorthands() { return shorthand_kinds; }
 
 }  // namespace dynalin::commands

@@ -7,10 +7,10 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct ShowArguments {
   std::string statistics;
-  static constexpr std::array<Argument<Written>, 1> arguments = {{
-      {.name = "STATISTICS", .slot = &Written::statistics, .required = true, .help = "SIMULATION"},
+  static constexpr std::array<Argument<ShowArguments>, 1> arguments = {{
+      {.name = "STATISTICS", .slot = &ShowArguments::statistics, .required = true, .help = "SIMULATION"},
   }};
 };
 
@@ -42,8 +42,8 @@ class Show final : public CommandAction {
   }
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_show(CommandReader& reader) {
+  ShowArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   constexpr std::array<std::string_view, 1> known = {"SIMULATION"};
   if (!find_keyword(w.statistics, known)) {
@@ -54,15 +54,15 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return std::make_shared<Show>();
 }
 
-constexpr CommandKind kind = {.name = "SHOW",
-                              .use = CommandUse::information,
-                              .summary = "prints what simulations have cost",
-                              .example = "SHOW STATISTICS=SIMULATION",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind show_kind = {.name = "SHOW",
+                                   .use = CommandUse::information,
+                                   .summary = "prints what simulations have cost",
+                                   .example = "SHOW STATISTICS=SIMULATION",
+                                   .arguments = detail::argument_infos<ShowArguments>,
+                                   .read = read_show};
 
 }  // namespace
 
-std::span<const CommandKind> show() { return {&kind, 1}; }
+std::span<const CommandKind> show() { return {&show_kind, 1}; }
 
 }  // namespace dynalin::commands

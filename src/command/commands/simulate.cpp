@@ -21,13 +21,13 @@ namespace dynalin::commands {
 
 namespace {
 
-struct Written {
+struct SimulateArguments {
   bool initial = false, statics = false, kinematics = false, dynamics = false, transient = false;
   bool displacement = false, velocity = false, acceleration = false;
   std::optional<double> end, duration, step;
   std::optional<std::int64_t> steps;
 
-  using W = Written;
+  using W = SimulateArguments;
   static constexpr double latest = 1e100;  // squares of times, and accelerations by them, are numbers
   static constexpr std::string_view level = "with INITIAL_CONDITIONS: the last level that is made";
   static constexpr std::array<Argument<W>, 12> arguments = {{
@@ -67,8 +67,8 @@ struct Written {
   }};
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
-  Written w;
+std::shared_ptr<const CommandAction> read_simulate(CommandReader& reader) {
+  SimulateArguments w;
   if (!read_arguments(w, reader)) return nullptr;
   const Span whole = reader.statement().at;
   if (w.initial + w.statics + w.kinematics + w.dynamics + w.transient != 1) {
@@ -159,9 +159,9 @@ StudyResult<void> find_rest(RunState& run) {
 }
 
 // Time reached, step, order, iterations, and what is left to wait at the pace so far.
-class Progress {
+class TimeProgress {
  public:
-  Progress(double start, double end) : start_(start), end_(end) {}
+  TimeProgress(double start, double end) : start_(start), end_(end) {}
   std::string text(const SimulationStep& at) const {
     const IntegrationStatistics& s = at.statistics;
     const double done = (at.point.time - start_) / (end_ - start_);
@@ -217,12 +217,12 @@ std::string ending_of(SimulationEnd end, std::string_view said) {
   return "";
 }
 
-constexpr CommandKind kind = {.name = "SIMULATE",
-                              .use = CommandUse::analysis,
-                              .summary = "finds an operating point, or leads it through time",
-                              .example = "SIMULATE/STATICS",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = read};
+constexpr CommandKind simulate_kind = {.name = "SIMULATE",
+                                       .use = CommandUse::analysis,
+                                       .summary = "finds an operating point, or leads it through time",
+                                       .example = "SIMULATE/STATICS",
+                                       .arguments = detail::argument_infos<SimulateArguments>,
+                                       .read = read_simulate};
 
 }  // namespace
 
@@ -248,7 +248,7 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   request.statics = statics_options(run.settings.equilibrium);
   StepOutput output(run, step_kind(kind_at(run.point, *kind)), request.times, request.integrator);
   ProgressLine line(run.status_line());
-  const Progress progress(start, last);
+  const TimeProgress progress(start, last);
   const Interruptible stop_on_request;
   std::string said;  // by SENSORs, last
   const auto found = simulate(run.point, request, [&](const SimulationStep& at) {
@@ -269,6 +269,6 @@ StudyResult<void> Simulate::run_over_time(RunState& run) const {
   return {};
 }
 
-std::span<const CommandKind> simulate() { return {&dynalin::commands::kind, 1}; }
+std::span<const CommandKind> simulate() { return {&simulate_kind, 1}; }
 
 }  // namespace dynalin::commands

@@ -12,7 +12,7 @@ class Stop final : public CommandAction {
   bool stops() const override { return true; }
 };
 
-std::shared_ptr<const CommandAction> read(CommandReader& reader) {
+std::shared_ptr<const CommandAction> read_stop(CommandReader& reader) {
   const Statement& written = reader.statement();
   if (written.id) reader.error("unexpected-text", written.at, "STOP has no id");
   for (const WrittenArgument& w : written.arguments)
@@ -20,14 +20,14 @@ std::shared_ptr<const CommandAction> read(CommandReader& reader) {
   return std::make_shared<Stop>();
 }
 
-constexpr CommandKind kind = {.name = "STOP",
-                              .use = CommandUse::run,
-                              .summary = "ends the run; what stands behind it is not read",
-                              .example = "STOP",
-                              .read = read};
+constexpr CommandKind stop_kind = {.name = "STOP",
+                                   .use = CommandUse::run,
+                                   .summary = "ends the run; what stands behind it is not read",
+                                   .example = "STOP",
+                                   .read = read_stop};
 
 }  // namespace
 
-std::span<const CommandKind> stop() { return {&kind, 1}; }
+std::span<const CommandKind> stop() { return {&stop_kind, 1}; }
 
 }  // namespace dynalin::commands

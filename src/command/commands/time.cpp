@@ -15,25 +15,25 @@ class Time final : public CommandAction {
   }
 };
 
-struct Written {
+struct TimeArguments {
   bool list = false;
-  static constexpr std::array<Argument<Written>, 1> arguments = {{
-      {.name = "LIST", .slot = &Written::list, .help = "the same"},
+  static constexpr std::array<Argument<TimeArguments>, 1> arguments = {{
+      {.name = "LIST", .slot = &TimeArguments::list, .help = "the same"},
   }};
 };
 
-constexpr CommandKind kind = {.name = "TIME",
-                              .use = CommandUse::information,
-                              .summary = "prints the time of the point",
-                              .example = "TIME",
-                              .arguments = detail::argument_infos<Written>,
-                              .read = [](CommandReader& reader) -> std::shared_ptr<const CommandAction> {
-                                Written w;
-                                return read_arguments(w, reader) ? std::make_shared<Time>() : nullptr;
-                              }};
+constexpr CommandKind time_kind = {.name = "TIME",
+                                   .use = CommandUse::information,
+                                   .summary = "prints the time of the point",
+                                   .example = "TIME",
+                                   .arguments = detail::argument_infos<TimeArguments>,
+                                   .read = [](CommandReader& reader) -> std::shared_ptr<const CommandAction> {
+                                     TimeArguments w;
+                                     return read_arguments(w, reader) ? std::make_shared<Time>() : nullptr;
+                                   }};
 
 }  // namespace
 
-std::span<const CommandKind> time() { return {&kind, 1}; }
+std::span<const CommandKind> time() { return {&time_kind, 1}; }
 
 }  // namespace dynalin::commands
