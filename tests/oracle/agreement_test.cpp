@@ -104,11 +104,16 @@ void compare(std::uint64_t seed) {
 }
 
 // Of those that each take long an ordinary run looks at one of two.
-void compare_of_two(std::uint64_t first) {
+struct TwoSeeds {
+  std::uint64_t always, with_all;
+};
+void PrintTo(const TwoSeeds& seeds, std::ostream* out) { *out << seeds.always; }
+
+void compare(const TwoSeeds& seeds) {
   if (all_are_drawn()) {
-    ASSERT_NO_FATAL_FAILURE(compare(first));
+    ASSERT_NO_FATAL_FAILURE(compare(seeds.with_all));
   }
-  compare(first + 1);
+  compare(seeds.always);
 }
 
 class Agreement : public ::testing::TestWithParam<std::uint64_t> {};
@@ -119,16 +124,18 @@ TEST_P(Agreement, state_matrices_equal_differences_of_the_nonlinear_model) {
 INSTANTIATE_TEST_SUITE_P(generated, Agreement, ::testing::Range<std::uint64_t>(1, 241, 30));
 
 // Of elements between two or three nodes, far bent, stretched and twisted, in motion and under loads along them.
-class BeamAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+class BeamAgreement : public ::testing::TestWithParam<TwoSeeds> {};
 
-TEST_P(BeamAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare_of_two(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(generated, BeamAgreement, ::testing::Range<std::uint64_t>(241, 247, 2));
+TEST_P(BeamAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, BeamAgreement,
+                         ::testing::Values(TwoSeeds{243, 241}, TwoSeeds{244, 242}, TwoSeeds{246, 245}));
 
 // Of beams in each of the planes, far bent and stretched, that carry a part which nothing else holds.
-class PlaneBeamAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+class PlaneBeamAgreement : public ::testing::TestWithParam<TwoSeeds> {};
 
-TEST_P(PlaneBeamAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare_of_two(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(generated, PlaneBeamAgreement, ::testing::Range<std::uint64_t>(281, 287, 2));
+TEST_P(PlaneBeamAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, PlaneBeamAgreement,
+                         ::testing::Values(TwoSeeds{282, 281}, TwoSeeds{284, 283}, TwoSeeds{286, 285}));
 
 // With state equations of compiled routines.
 class GseAgreement : public ::testing::TestWithParam<std::uint64_t> {};
@@ -137,10 +144,11 @@ TEST_P(GseAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { 
 INSTANTIATE_TEST_SUITE_P(generated, GseAgreement, ::testing::Range<std::uint64_t>(261, 267));
 
 // Of bodies of modes, deformed and in motion, under modal loads.
-class FlexibleAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+class FlexibleAgreement : public ::testing::TestWithParam<TwoSeeds> {};
 
-TEST_P(FlexibleAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare_of_two(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(generated, FlexibleAgreement, ::testing::Range<std::uint64_t>(271, 277, 2));
+TEST_P(FlexibleAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, FlexibleAgreement,
+                         ::testing::Values(TwoSeeds{272, 271}, TwoSeeds{274, 273}, TwoSeeds{276, 275}));
 
 // Of such bodies that turn about as fast as they vibrate.
 class SpinningAgreement : public ::testing::TestWithParam<std::uint64_t> {};
@@ -162,10 +170,11 @@ TEST_P(RiderAgreement, state_matrices_equal_differences_of_the_nonlinear_model) 
 INSTANTIATE_TEST_SUITE_P(generated, RiderAgreement, ::testing::Range<std::uint64_t>(311, 321));
 
 // Of shafts on films of oil.
-class JournalAgreement : public ::testing::TestWithParam<std::uint64_t> {};
+class JournalAgreement : public ::testing::TestWithParam<TwoSeeds> {};
 
-TEST_P(JournalAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare_of_two(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(generated, JournalAgreement, ::testing::Range<std::uint64_t>(321, 327, 2));
+TEST_P(JournalAgreement, state_matrices_equal_differences_of_the_nonlinear_model) { compare(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(generated, JournalAgreement,
+                         ::testing::Values(TwoSeeds{322, 321}, TwoSeeds{324, 323}, TwoSeeds{326, 325}));
 
 // Of solids that press on each other, four pairs in each: the list is in generator_solids.cpp.
 class SolidAgreement : public ::testing::TestWithParam<std::uint64_t> {};
@@ -180,8 +189,7 @@ INSTANTIATE_TEST_SUITE_P(generated, SolidAgreement,
 // take a part of the seeds would compare once or not at all.
 TEST(Generated, mechanisms_hold_every_element_and_function_of_the_program) {
   std::vector<std::uint64_t> seeds = drawn_seeds(1, 240);
-  for (const std::uint64_t first : {241u, 271u, 321u}) seeds.insert(seeds.end(), {first + 1, first + 3, first + 5});
-  for (const std::uint64_t first : {261u, 311u}) seeds.insert(seeds.end(), {first, first + 1});
+  seeds.insert(seeds.end(), {243, 244, 246, 261, 262, 272, 274, 311, 312, 322, 324});
   std::vector<std::string> texts;
   for (const std::uint64_t seed : seeds) texts.push_back(dataset_text(random_mechanism(seed)));
   const auto holding = [&](const std::string& word) {
