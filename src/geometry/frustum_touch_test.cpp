@@ -12,6 +12,7 @@
 
 #include "geometry/frustum_test_support.h"
 #include "geometry/moved_frame_test_support.h"
+#include "places/draws.h"
 
 namespace dynalin::frustum_touch_test {
 namespace {
@@ -66,8 +67,9 @@ class FrustumTouch : public ::testing::TestWithParam<Pair> {};
 TEST_P(FrustumTouch, one_place_is_as_deep_as_the_sides_are_from_parting) {
   const Pair& p = GetParam();
   std::mt19937_64 random(3);
+  const int count = draws(50, 25);
   int apart = 0, together = 0;
-  for (int draw = 0; draw < 50; ++draw) {
+  for (int draw = 0; draw < count; ++draw) {
     const Frame at = placed(random);
     const double h = largest_separation(p, at);
     double deepest = 0, nearest = 1;
@@ -91,8 +93,8 @@ TEST_P(FrustumTouch, one_place_is_as_deep_as_the_sides_are_from_parting) {
     // What else they have in common may be deeper where they are as deep in each other as they are thick.
     EXPECT_LE(deepest, h > -0.02 ? -1.1 * h + 1e-9 : 2.0) << draw;
   }
-  EXPECT_GT(apart, 5);
-  EXPECT_GT(together, 5);
+  EXPECT_GT(apart, count / 10);
+  EXPECT_GT(together, count / 10);
 }
 
 // The gap grows by the motion along the normal; normal, point and share are those of differences.
@@ -100,8 +102,9 @@ TEST_P(FrustumTouch, duals_are_the_derivatives) {
   const Pair& p = GetParam();
   constexpr double h = 1e-5;
   std::mt19937_64 random(4);
+  const int count = draws(60, 20);
   int compared = 0;
-  for (int draw = 0; draw < 60; ++draw) {
+  for (int draw = 0; draw < count; ++draw) {
     const Frame at = placed(random);
     const auto along = [](const Vector& v) { return Vec3<Taylor>{Taylor(v.x), Taylor(v.y), Taylor(v.z)}; };
     const auto seeds = path::seeded<12>({along(at.p), along(at.x), along(at.y), along(at.z)});
@@ -127,13 +130,13 @@ TEST_P(FrustumTouch, duals_are_the_derivatives) {
       }
     }
   }
-  EXPECT_GT(compared, 30);
+  EXPECT_GT(compared, count / 2);
 }
 
 TEST_P(FrustumTouch, exchanged_sides_push_each_other_with_opposite_forces) {
   const Pair& p = GetParam();
   std::mt19937_64 random(5);
-  for (int draw = 0; draw < 60; ++draw) {
+  for (int draw = 0; draw < draws(60, 20); ++draw) {
     const Frame f = placed(random);
     const auto from = [&](const Vector& v) { return Vector{dot(f.x, v), dot(f.y, v), dot(f.z, v)}; };
     const Frame back{-from(f.p), {f.x.x, f.y.x, f.z.x}, {f.x.y, f.y.y, f.z.y}, {f.x.z, f.y.z, f.z.z}};

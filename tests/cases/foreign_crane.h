@@ -85,12 +85,12 @@ class Crane {
   };
   Moving moving(const VecX& x, const VecX& u, Real t) const {
     const VecX all = whole(x);
-    VecX v(4);
+    VecX v(4), by_one(4);
     v << u, 0;
-    const VecX free = n_.rates(all, v, t);
-    if (!geared) return {v, free};
-    v(3) = 1;
-    const VecX pressed = n_.rates(all, v, t) - free;
+    if (!geared) return {v, n_.rates(all, v, t)};
+    by_one << u, 1;
+    const std::vector<VecX> at_both = n_.rates(all, std::vector{v, by_one}, t);
+    const VecX &free = at_both[0], pressed = at_both[1] - free;
     const Real r = ratio(all(trolley)), carried = 4e-4L * all(coordinates + trolley) * all(coordinates + motor);
     const auto slip = [&](const VecX& by) { return 25 * by(coordinates + hoist) - r * by(coordinates + motor); };
     v(3) = (carried - slip(free)) / slip(pressed);

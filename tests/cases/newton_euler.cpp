@@ -1,13 +1,29 @@
 #include "cases/newton_euler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace dynalin::cases::newton_euler {
 
 namespace {
 
 constexpr Real step = 0.01L;
+
+// Of eighth order at 1 to 4 steps to either side: the first and the second one.
+template <class Value, class F>
+std::pair<Value, Value> both_differences(F f, Real h) {
+  constexpr std::array<Real, 4> odd = {Real(4) / 5, Real(-1) / 5, Real(4) / 105, Real(-1) / 280},
+                                even = {Real(8) / 5, Real(-1) / 5, Real(8) / 315, Real(-1) / 560};
+  Value second = f(0) * (Real(-205) / 72), first = 0 * second;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Real s = static_cast<Real>(k + 1) * h;
+    const Value up = f(s), down = f(-s);
+    first += odd[k] * (up - down), second += even[k] * (up + down);
+  }
+  return {first / h, second / (h * h)};
+}
 
 }  // namespace
 
@@ -21,10 +37,13 @@ Mat3 euler(Real psi, Real theta, Real phi) {
 Mat3 exponential(const Vec3& v) { return v.norm() == 0 ? Mat3(Mat3::Identity()) : about(v.normalized(), v.norm()); }
 
 NewtonEuler::State NewtonEuler::at(const VecX& x, const VecX& u, Real time) const {
+  return at(x, u, time, along(x.head(size()), x.segment(size(), size()), 1, time));
+}
+
+NewtonEuler::State NewtonEuler::at(const VecX& x, const VecX& u, Real time, const Moved& ahead) const {
   const Eigen::Index n = size();
   State s{x.head(n), x.segment(n, n), x.tail(states), u, time, {}};
   const std::vector<Pose> now = poses(s.q, time);
-  const Moved ahead = along(s.q, s.rate, 1, time);
   for (std::size_t b = 0; b < now.size(); ++b) {
     Point p;
     p.p = now[b].p, p.R = now[b].R;
@@ -35,35 +54,44 @@ NewtonEuler::State NewtonEuler::at(const VecX& x, const VecX& u, Real time) cons
   return s;
 }
 
-VecX NewtonEuler::rates(const VecX& x, const VecX& u, Real time) const {
+std::vector<VecX> NewtonEuler::rates(const VecX& x, const std::vector<VecX>& inputs, Real time) const {
   const Eigen::Index n = size();
-  const State s = at(x, u, time);
-  Loads load(bodies.size(), n, states);
-  loads(s, load);
-  const Moved ahead = along(s.q, s.rate, 1, time);
+  const Moved ahead = along(x.head(n), x.segment(n, n), 1, time);
+  State s = at(x, inputs.front(), time, ahead);
   std::vector<Moved> ways;
   for (Eigen::Index k = 0; k < n; ++k) ways.push_back(along(s.q, VecX::Unit(n, k), 0, time));
   MatX M = MatX::Zero(n, n);
-  VecX f = load.along;
+  VecX inertial = VecX::Zero(n);
+  std::vector<Columns> moves(bodies.size(), Columns(3, n)), turns = moves;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Point& p = s.bodies[b];
     const auto column = static_cast<Eigen::Index>(4 * b);
-    Columns moves(3, n), turns(3, n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const Columns& way = ways[static_cast<std::size_t>(k)].first;
-      moves.col(k) = way.col(column), turns.col(k) = axial(block(way, b) * p.R.transpose());
+      moves[b].col(k) = way.col(column), turns[b].col(k) = axial(block(way, b) * p.R.transpose());
     }
     const Mat3 J = p.R * bodies[b].inertia * p.R.transpose() / consistency;
     const Real m = bodies[b].mass / consistency;
     // What accelerates with the second rates of the coordinates at zero: R'' Rᵀ has α as its skew part.
     const Vec3 a = ahead.second.col(column), alpha = axial(block(ahead.second, b) * p.R.transpose());
-    f += moves.transpose() * (load.wrench_[b].head<3>() - m * a) +
-         turns.transpose() * (load.wrench_[b].tail<3>() - J * alpha - p.w.cross(J * p.w));
-    M += m * moves.transpose() * moves + turns.transpose() * J * turns;
+    inertial += moves[b].transpose() * (m * a) + turns[b].transpose() * (J * alpha + p.w.cross(J * p.w));
+    M += m * moves[b].transpose() * moves[b] + turns[b].transpose() * J * turns[b];
   }
-  VecX out(x.size());
-  out << s.rate, M.ldlt().solve(f), load.rates;
-  return out;
+  const auto masses = M.ldlt();
+  std::vector<VecX> found;
+  for (const VecX& u : inputs) {
+    s.u = u;
+    Loads load(bodies.size(), n, states);
+    loads(s, load);
+    VecX f = load.along - inertial;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      f += moves[b].transpose() * load.wrench_[b].head<3>() + turns[b].transpose() * load.wrench_[b].tail<3>();
+    }
+    VecX out(x.size());
+    out << s.rate, masses.solve(f), load.rates;
+    found.push_back(std::move(out));
+  }
+  return found;
 }
 
 Vec3 NewtonEuler::acceleration(std::size_t body, const VecX& x, const VecX& u, Real time) const {
@@ -123,7 +151,15 @@ NewtonEuler::Moved NewtonEuler::along(const VecX& q, const VecX& way, Real clock
     }
     return c;
   };
-  return {first_difference(places, h), clock == 0 ? Columns() : second_difference(places, h)};
+  if (clock == 0) return {first_difference(places, h), {}};
+  auto both = both_differences<Columns>(places, h);
+  return {std::move(both.first), std::move(both.second)};
+}
+
+NewtonEuler::Point marker(const NewtonEuler::Point& body, const Vec3& at, const Mat3& axes) {
+  NewtonEuler::Point f;
+  f.p = body.of(at), f.R = body.R * axes, f.v = body.speed(at), f.w = body.w;
+  return f;
 }
 
 Relative relative(const NewtonEuler::Point& I, const NewtonEuler::Point& J) {
@@ -151,12 +187,6 @@ std::vector<std::complex<double>> spectrum(MatX A) {
   for (const auto& v : solver.eigenvalues())
     values.emplace_back(static_cast<double>(v.real() / (2 * pi_l)), static_cast<double>(v.imag() / (2 * pi_l)));
   return values;
-}
-
-NewtonEuler::Point marker(const NewtonEuler::Point& body, const Vec3& at, const Mat3& axes) {
-  NewtonEuler::Point f;
-  f.p = body.of(at), f.R = body.R * axes, f.v = body.speed(at), f.w = body.w;
-  return f;
 }
 
 MatX solution(const MatX& A, const MatX& b) { return A.fullPivLu().solve(b); }

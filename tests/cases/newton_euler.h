@@ -38,14 +38,6 @@ auto first_difference(F f, Real h) {
   const auto pair = [&](int k) { return (f(k * h) - f(-k * h)).eval(); };
   return ((pair(1) * (Real(4) / 5) - pair(2) / 5 + pair(3) * (Real(4) / 105) - pair(4) / 280) / h).eval();
 }
-template <class F>
-auto second_difference(F f, Real h) {
-  const auto pair = [&](int k) { return (f(k * h) + f(-k * h)).eval(); };
-  return ((f(0) * (Real(-205) / 72) + pair(1) * (Real(8) / 5) - pair(2) / 5 + pair(3) * (Real(8) / 315) -
-           pair(4) / 560) /
-          (h * h))
-      .eval();
-}
 
 class NewtonEuler {
  public:
@@ -100,7 +92,9 @@ class NewtonEuler {
 
   State at(const VecX& x, const VecX& u, Real time) const;
   // x'.
-  VecX rates(const VecX& x, const VecX& u, Real time) const;
+  VecX rates(const VecX& x, const VecX& u, Real time) const { return rates(x, std::vector{u}, time).front(); }
+  // For each of several inputs.
+  std::vector<VecX> rates(const VecX& x, const std::vector<VecX>& inputs, Real time) const;
   // Of the mass centre.
   Vec3 acceleration(std::size_t body, const VecX& x, const VecX& u, Real time) const;
 
@@ -119,6 +113,8 @@ class NewtonEuler {
   struct Moved {
     Columns first, second;
   };
+  // With what the motion from there makes of the poses.
+  State at(const VecX& x, const VecX& u, Real time, const Moved& ahead) const;
   static Mat3 block(const Columns& c, std::size_t body);
   // Both derivatives of all poses along `way` and, with `clock` 1, time.
   Moved along(const VecX& q, const VecX& way, Real clock, Real time) const;

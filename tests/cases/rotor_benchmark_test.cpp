@@ -186,10 +186,11 @@ TEST_F(TwoDiscs, lead_to_the_limit_of_the_published_model) {
     for (const auto& value : published) {
       EXPECT_LE(std::abs(nearest_to(hand, value) - value), rotor.n == 48 ? 6e-8 : 1e-10 * std::abs(value)) << value;
     }
-    const auto limit =
-        rotor.n == 48 ? hand : lowest(Rotor{48, rotor.rpm, rotor.bearing_damping}.by_hand(Rotor::Mass::consistent), 8);
+    // At that speed the limit is looked at with six elements published.
+    if (rotor.n == 48) continue;
+    const auto limit = lowest(Rotor{48, rotor.rpm, rotor.bearing_damping}.by_hand(Rotor::Mass::consistent), 8);
     std::vector<std::vector<double>> real(published.size()), imag(published.size());
-    for (const int n : {12, 24, 48}) {
+    for (const int n : {9, 18, 36}) {
       const auto values = spectrum(Rotor{n, rotor.rpm, rotor.bearing_damping}.dataset());
       for (std::size_t k = 0; k < published.size(); ++k) {
         const Complex value = nearest_to(values, nearest_to(limit, published[k]));
@@ -198,7 +199,7 @@ TEST_F(TwoDiscs, lead_to_the_limit_of_the_published_model) {
     }
     for (std::size_t k = 0; k < published.size(); ++k) {
       const Complex expected = nearest_to(limit, published[k]);
-      // Twelve elements are too few for the third pair, which also comes close to a mode along the shaft.
+      // Nine elements are too few for the third pair, which also comes close to a mode along the shaft.
       if (std::abs(expected) > 400) continue;
       EXPECT_LE(std::abs(Complex(extrapolated(real[k]), extrapolated(imag[k])) - expected), 1e-6 * std::abs(expected))
           << expected;

@@ -61,7 +61,7 @@ TEST_F(StatusLine, a_long_command_says_what_it_is_doing_and_takes_the_line_away)
 
 TEST_F(StatusLine, nobody_else_sees_it) {
   write_chain(4000);
-  const std::string command = "SIMULATE/STATICS";
+  const std::string command = "SIMULATE/INITIAL_CONDITIONS";
   EXPECT_THAT(run(running(command)).out, Not(HasSubstr("\r"))) << "no terminal";
   for (const std::string& name : names()) EXPECT_THAT(text(name), Not(HasSubstr("\033"))) << name;
   Terminal quiet(folder_, running(command, {"--quiet"}));

@@ -12,6 +12,7 @@
 #include "elements/catalogue.h"
 #include "nastran/export.h"
 #include "oracle/resting.h"
+#include "places/draws.h"
 
 namespace dynalin::oracle::decks_test {
 namespace {
@@ -89,8 +90,9 @@ class Decks : public ::testing::TestWithParam<std::uint64_t> {
 };
 
 TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
+  const auto seeds = drawn_seeds(GetParam(), std::min<std::uint64_t>(GetParam() + 29, 200));
   int closed = 0, open = 0;
-  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto moving = system_of(random_mechanism(seed));
     const auto point = initial_conditions(as_drawn(moving));
@@ -104,15 +106,16 @@ TEST_P(Decks, of_generated_mechanisms_have_their_eigenvalues) {
     const auto resting = system_of(still);
     StaticsOptions options;
     options.restore_velocities = false;
+    options.restarts = 0, options.effort_limit *= 0.03;  // what is hard to find is for tests of statics
     const auto found = static_equilibrium(as_drawn(resting), options);
     if (!found || moves(found->point.values)) continue;
     open += compare(found->point, nastran::Box::open);
   }
-  EXPECT_EQ(closed, 20);
+  EXPECT_EQ(closed, std::ssize(seeds));
   // Some are at rest nowhere, or only with a joint turned over.
-  EXPECT_GE(open, 9);
+  EXPECT_GE(open, 0.4 * static_cast<double>(seeds.size()));
 }
-INSTANTIATE_TEST_SUITE_P(generated, Decks, ::testing::Range<std::uint64_t>(1, 201, 20));
+INSTANTIATE_TEST_SUITE_P(generated, Decks, ::testing::Range<std::uint64_t>(1, 201, 30));
 
 }  // namespace
 }  // namespace dynalin::oracle::decks_test

@@ -13,6 +13,7 @@
 #include "elements/catalogue.h"
 #include "modal/modal_distribution.h"
 #include "oracle/program_point.h"
+#include "places/draws.h"
 
 namespace dynalin::oracle::energy_rows_test {
 namespace {
@@ -154,13 +155,13 @@ void compare(std::uint64_t seed, Seen& seen) {
 
 TEST_P(EnergyRows, equal_the_work_of_forces_by_differences) {
   Seen seen;
-  for (std::uint64_t seed = GetParam(); seed < GetParam() + 20; ++seed) {
+  for (const std::uint64_t seed : drawn_seeds(GetParam(), GetParam() + 29)) {
     compare(seed, seen);
     ASSERT_FALSE(::testing::Test::HasFailure());
   }
   EXPECT_GT(seen.tables, 5 * seen.left_out) << seen.tables;
 }
-INSTANTIATE_TEST_SUITE_P(generated, EnergyRows, ::testing::Range<std::uint64_t>(1, 241, 20));
+INSTANTIATE_TEST_SUITE_P(generated, EnergyRows, ::testing::Range<std::uint64_t>(1, 241, 30));
 
 // Seeds with a journal bearing each.
 TEST(JournalEnergyRows, equal_the_work_of_forces_by_differences) {

@@ -34,7 +34,7 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
   result.B = result.B_error = matrix(n, inputs);
   result.C = result.C_error = matrix(outputs, n);
   result.D = result.D_error = matrix(outputs, inputs);
-  std::vector<Real> x(n, 0), u(inputs, 0);
+  const std::vector<Real> x(n, 0), u(inputs, 0);
   const auto store = [&](const Extrapolated& column, Matrix& top, Matrix& top_error, Matrix& low, Matrix& low_error,
                          std::size_t j) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -49,19 +49,17 @@ OracleLinearModel oracle_linearize(const Mechanism& mechanism, const OraclePoint
   constexpr Real first_step = 0x1p-6L;
   for (std::size_t j = 0; j < n; ++j) {
     const auto along = [&](Real h) {
-      x[j] = h;
-      std::vector<Real> value = near.evaluate(x, u);
-      x[j] = 0;
-      return value;
+      std::vector<Real> beside = x;
+      beside[j] = h;
+      return near.evaluate(beside, u);
     };
     store(differentiate(along, first_step * near.step(j)), result.A, result.A_error, result.C, result.C_error, j);
   }
   for (std::size_t j = 0; j < inputs; ++j) {
     const auto along = [&](Real h) {
-      u[j] = h;
-      std::vector<Real> value = near.evaluate(x, u);
-      u[j] = 0;
-      return value;
+      std::vector<Real> beside = u;
+      beside[j] = h;
+      return near.evaluate(x, beside);
     };
     store(differentiate(along, first_step), result.B, result.B_error, result.D, result.D_error, j);
   }

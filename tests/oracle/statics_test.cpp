@@ -10,6 +10,7 @@
 
 #include "elements/catalogue.h"
 #include "oracle/resting.h"
+#include "places/draws.h"
 
 namespace dynalin::oracle::statics_test {
 namespace {
@@ -17,8 +18,9 @@ namespace {
 class Statics : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
+  const auto seeds = drawn_seeds(GetParam(), std::min<std::uint64_t>(GetParam() + 29, 100));
   int found = 0, refused = 0;
-  for (std::uint64_t seed = GetParam(); seed < GetParam() + 25; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Mechanism mechanism = random_resting_mechanism(seed);
     const std::string text = dataset_text(mechanism);
@@ -29,7 +31,9 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     const System& system = *made;
     Findings findings;
     StaticsReport report;
-    const auto op = find_equilibrium(system, system.drawn(), {}, report, findings);
+    StaticsOptions options;
+    if (!all_are_drawn()) options.effort_limit *= 0.1;  // these are small, and what is not found by then rarely is
+    const auto op = find_equilibrium(system, system.drawn(), options, report, findings);
     if (!op) {
       ++refused;
       EXPECT_FALSE(op.error().message.empty());
@@ -101,9 +105,9 @@ TEST_P(Statics, generated_mechanisms_come_to_rest_or_say_why_not) {
     for (const Real rate : model.differential_rates()) EXPECT_NEAR(static_cast<double>(rate), 0, 1e-7);
   }
   std::cout << found << " equilibria, " << refused << " refused\n";
-  EXPECT_GE(found, 22);
+  EXPECT_GE(found, 0.8 * static_cast<double>(seeds.size()));
 }
-INSTANTIATE_TEST_SUITE_P(generated, Statics, ::testing::Range<std::uint64_t>(1, 101, 25));
+INSTANTIATE_TEST_SUITE_P(generated, Statics, ::testing::Range<std::uint64_t>(1, 101, 30));
 
 }  // namespace
 }  // namespace dynalin::oracle::statics_test

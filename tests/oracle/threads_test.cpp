@@ -36,7 +36,7 @@ std::optional<Numbers> numbers_of(const System& system) {
   // Statics may fail, alike for all.
   StaticsReport report;
   StaticsOptions short_search;
-  short_search.iteration_limit = 20, short_search.restarts = 0;
+  short_search.iteration_limit = 20, short_search.restarts = 0, short_search.effort_limit = 1e7;
   if (const auto rest = find_equilibrium(system, *op, short_search, report, findings))
     n.lambda.insert(n.lambda.end(), rest->lambda.begin(), rest->lambda.end());
   return n;

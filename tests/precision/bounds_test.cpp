@@ -12,6 +12,7 @@
 #include "eigenvalues/eigen.h"
 #include "elements/catalogue.h"
 #include "oracle/mechanism.h"
+#include "places/draws.h"
 #include "precision/precise.h"
 
 namespace dynalin::precision::bounds_test {
@@ -105,7 +106,7 @@ class Bounds : public ::testing::Test {
 class GeneratedBounds : public Bounds, public ::testing::WithParamInterface<std::uint64_t> {};
 
 TEST_P(GeneratedBounds, hold_for_generated_mechanisms) {
-  for (std::uint64_t seed = GetParam(); seed < GetParam() + 100; ++seed) {
+  for (const std::uint64_t seed : drawn_seeds(GetParam(), GetParam() + 99)) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     examine(oracle::dataset_text(oracle::random_mechanism(seed)));
     if (HasFatalFailure() || HasFailure()) return;
