@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "expression/program_shape.h"
+#include "expression/program_shapes.h"
 #include "model/kind_finder.h"
 #include "model/model_reader.h"
 #include "routine/routine_data.h"
