@@ -168,7 +168,7 @@ class Builder {
         if (!s.damaged) diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
       }
-      const ElementLabel label{kind->statement, s.id.value_or(0), s.view_name, s.at};
+      const ElementLabel label{kind->statement, s.id.value_or(0), s.view_name(), s.at};
       if (kind->role == Kind::Role::singleton && set->size() > 0) {
         diagnostics_.error("duplicate-statement", s.at, fmt::format("{} is given twice", s.name))
             .notes.push_back({set->labels.front().at, "the first one is here"});
