@@ -39,7 +39,7 @@ std::string statement_list(const Statement& s, const Unstated& unstated) {
                         : fmt::format("   {}\n", w.name.text());
   for (const auto& [argument, value] : unstated.values) text += fmt::format("   {:<{}} = {}\n", argument, width, value);
   for (const std::string& sentence : unstated.sentences) text += fmt::format("   {}\n", sentence);
-  if (!s.view_name.empty()) text += fmt::format("   its name is {}\n", s.view_name);
+  if (!s.view_name().empty()) text += fmt::format("   its name is {}\n", s.view_name());
   if (s.inactive) text += "   it is not active\n";
   return text + "\n";
 }

@@ -112,13 +112,14 @@ class ArgumentSplitter {
   std::string_view statement_;
   const SourceText& source_;
   Diagnostics& diagnostics_;
-  std::vector<std::size_t> match_;  // the partner of each parenthesis and bracket; empty if there is none
   std::size_t at_ = 0;
   SplitArguments& result_;
 };
 
 void ArgumentSplitter::match_parentheses() {
-  std::vector<std::size_t> open;
+  result_.match.clear();
+  std::vector<std::size_t>& open = result_.open;
+  open.clear();
   for (std::size_t i = 0; i < tokens_.size(); ++i) {
     if (tokens_[i].kind != TokenKind::symbol) continue;
     const char symbol = source_.text()[tokens_[i].offset];
@@ -126,9 +127,9 @@ void ArgumentSplitter::match_parentheses() {
     const bool round = symbol == ')';
     if (!round && symbol != ']') continue;
     if (open.empty() || !symbol_at(open.back(), round ? '(' : '[')) continue;
-    if (match_.empty()) match_.assign(tokens_.size(), unmatched);
-    match_[i] = open.back();
-    match_[open.back()] = i;
+    if (result_.match.empty()) result_.match.assign(tokens_.size(), unmatched);
+    result_.match[i] = open.back();
+    result_.match[open.back()] = i;
     open.pop_back();
   }
 }
@@ -277,8 +278,8 @@ std::size_t ArgumentSplitter::end_of_value(ArgumentDraft& draft) {
       damage(argument, "stray-equals", i, "'=' stands inside of a value",
              "a comma may be missing before the name of the argument");
       ++i;
-    } else if (!match_.empty() && match_[i] != unmatched) {
-      for (const std::size_t close = match_[i]; i < close; ++i) {
+    } else if (!result_.match.empty() && result_.match[i] != unmatched) {
+      for (const std::size_t close = result_.match[i]; i < close; ++i) {
         if (symbol_at(i, '=')) damage(argument, "stray-equals", i, "'=' stands inside of parentheses");
       }
       ++i;

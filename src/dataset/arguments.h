@@ -20,6 +20,10 @@ namespace dynalin {
 struct SplitArguments {
   std::vector<WrittenArgument> arguments;  // with values among the tokens that were given
   bool damaged = false;                    // an error was reported
+
+  // Memory that is used again. The partner of each parenthesis and bracket, empty if there is none; those that are
+  // open.
+  std::vector<std::size_t> match, open;
 };
 
 // `tokens` are those behind keyword, slash and id; `statement` is the full keyword, "" if unknown. What `result` held

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <stdexcept>
 
 namespace dynalin {
 
 namespace {
 
-template <class T>
-void give_back(std::pmr::vector<T>& list) {
+void give_back(std::pmr::vector<Token>& list) {
   list.clear();
   list.shrink_to_fit();
 }
@@ -38,25 +36,13 @@ void TokenStore::release_before(std::span<const Token> stored) {
   for (; released_ < here; ++released_) give_back(blocks_[released_]);
 }
 
-void WrittenArgument::set_value(std::span<const Token> tokens) {
-  constexpr std::size_t most = (1u << 30) - 1;
-  if (tokens.size() > most) throw std::length_error("a value of an argument is too long");
-  tokens_ = tokens.data(), count_ = static_cast<std::uint32_t>(tokens.size()) & most, offset_ = tokens.front().offset;
-}
-
-Span WrittenArgument::value_span() const {
-  if (count_ == 0) return {name.source, offset_, 0};
-  const Token& last = tokens_[count_ - 1];
-  return {name.source, offset_, last.offset + last.length - offset_};
-}
-
 void Dataset::release_arguments(Statement& statement) {
   for (const WrittenArgument& w : statement.arguments) tokens.release_before(w.value());
-  give_back(statement.arguments);
+  statement.arguments.release();
 }
 
 void Dataset::release_arguments() {
-  for (Statement& statement : statements) give_back(statement.arguments);
+  for (Statement& statement : statements) statement.arguments.release();
   tokens = {};
 }
 

@@ -15,28 +15,9 @@
 #include "base/block_memory.h"
 #include "base/diagnostics.h"
 #include "base/source.h"
+#include "dataset/written_arguments.h"
 
 namespace dynalin {
-
-enum class TokenKind : std::uint8_t {
-  word,    // letters, digits, underscores; starts with a letter or underscore
-  number,  // 12, 1.5E-3, 90D
-  symbol,  // one of , = : / \ ( ) [ ] + - * % ; ** counts as one symbol
-  other,   // a quoted text or other characters: legal only inside values read as raw text
-  end,
-};
-
-// Eight bytes, since a dataset has as many as it has words and numbers.
-struct Token {
-  std::uint32_t offset = 0;
-  std::uint32_t length : 26 = 0;
-  TokenKind kind : 3 = TokenKind::end;
-  bool continuation : 1 = false;  // a comma that is the continuation mark at the start of a line
-  bool degrees : 1 = false;       // a number with the suffix D
-  bool integer : 1 = false;       // a number written without point, exponent and suffix
-
-  static constexpr std::uint32_t longest = (1u << 26) - 1;
-};
 
 // Tokens in blocks, so that those which are stored stay where they are while others follow.
 class TokenStore {
@@ -50,44 +31,20 @@ class TokenStore {
   std::size_t released_ = 0;  // so many blocks
 };
 
-// `NAME = value` or a bare `NAME`.
-class WrittenArgument {
- public:
-  Span name;
-
-  // The tokens of the value, which exclude the separators around it and belong to the dataset.
-  std::span<const Token> value() const { return {tokens_, count_}; }
-  void set_value(std::span<const Token> tokens);
-  void set_empty_value(std::uint32_t offset) { tokens_ = nullptr, count_ = 0, offset_ = offset; }
-  // From the first to the last token of the value; after '=' if empty.
-  Span value_span() const;
-
- private:
-  const Token* tokens_ = nullptr;
-  std::uint32_t offset_ = 0;
-  std::uint32_t count_ : 30 = 0;
-
- public:
-  bool has_value : 1 = false;  // '=' was written
-  // An error inside of it is already reported: the readers below return nothing and add no second error, and
-  // its tokens must not be parsed as an expression.
-  bool damaged : 1 = false;
-};
-
-// A copy has memory of its own, whatever that of the arguments of a dataset is.
-using WrittenArguments = std::pmr::vector<WrittenArgument>;
-
+// In as little memory as large datasets need, which have millions.
 struct Statement {
   Span at{};                         // keyword and id together, the place to point at for the whole
   std::string_view name{};           // full upper-case name out of the keyword table, "" if unknown
-  std::string_view view_name{};      // of a preceding `! adams_view_name='…'` comment
   std::optional<std::int32_t> id{};  // after the slash
   WrittenArguments arguments{};
+  std::uint32_t view_name_offset = 0, view_name_length = 0;  // in the source of `at`
   std::uint32_t keyword_length = 0;
   bool damaged = false;   // an error in it is already reported: id or arguments may be missing
   bool inactive = false;  // taken out of the model by a command; its id still exists
 
   Span keyword() const { return {at.source, at.offset, keyword_length}; }  // as written
+  // Of a preceding `! adams_view_name='…'` comment, "" without one.
+  std::string_view view_name() const { return Span{at.source, view_name_offset, view_name_length}.text(); }
 };
 
 // Can be moved and not copied, because the values of the arguments are spans into `tokens`. A single

@@ -184,11 +184,13 @@ void StatementReader::report_missing_end() {
 
 void StatementReader::read_statement(std::span<const Token> tokens, std::string_view view_name) {
   if (!is_statement(tokens)) return;
-  Statement& statement =
-      dataset_.statements.emplace_back(Statement{.arguments = WrittenArguments(dataset_.memory.get())});
+  Statement& statement = dataset_.statements.emplace_back();
   statement.at = token_span(tokens[0], text_);
   statement.keyword_length = statement.at.length;
-  statement.view_name = view_name;
+  if (!view_name.empty()) {
+    statement.view_name_offset = static_cast<std::uint32_t>(view_name.data() - text_.text().data());
+    statement.view_name_length = static_cast<std::uint32_t>(view_name.size());
+  }
   look_up(statement);
 
   std::size_t next = 1;
@@ -344,11 +346,10 @@ void StatementReader::read_arguments(std::span<const Token> tokens, Statement& s
   Diagnostics ignored;  // of an unknown statement, which has its one error already
   split_arguments(tokens, statement.name, text_, statement.name.empty() ? ignored : diagnostics_, split_);
   statement.damaged = statement.damaged || split_.damaged;
-  statement.arguments.reserve(split_.arguments.size());
   for (WrittenArgument& argument : split_.arguments) {
     if (!argument.value().empty()) argument.set_value(dataset_.tokens.add(argument.value()));
-    statement.arguments.push_back(argument);
   }
+  statement.arguments = WrittenArguments(split_.arguments, *dataset_.memory);
 }
 
 }  // namespace

@@ -153,10 +153,10 @@ TEST(statements, take_their_name_from_the_comment_before_them) {
       "x\n\n"
       "MARKER/4 ! adams_view_name='last'\n, PART=1\nMARKER/5\nMARKER/6");
   ASSERT_EQ(parsed.value.statements.size(), 4u);
-  EXPECT_EQ(parsed.value.statements[0].view_name, "ground");
-  EXPECT_EQ(parsed.value.statements[1].view_name, "A.B c");
-  EXPECT_EQ(parsed.value.statements[2].view_name, "last");
-  EXPECT_EQ(parsed.value.statements[3].view_name, "");
+  EXPECT_EQ(parsed.value.statements[0].view_name(), "ground");
+  EXPECT_EQ(parsed.value.statements[1].view_name(), "A.B c");
+  EXPECT_EQ(parsed.value.statements[2].view_name(), "last");
+  EXPECT_EQ(parsed.value.statements[3].view_name(), "");
 }
 
 TEST(statements, are_found_by_their_short_forms) {

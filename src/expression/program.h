@@ -18,7 +18,7 @@
 #include "expression/expression.h"
 #include "expression/functions.h"
 #include "expression/program_draft.h"
-#include "expression/program_shape.h"
+#include "expression/program_shapes.h"
 #include "expression/routine.h"
 #include "expression/spline.h"
 
@@ -46,7 +46,7 @@ class ExpressionProgram {
   Atom atom(std::size_t number) const;
   std::span<const SplineUse> splines() const;  // evaluate to NaN until their curves are attached
   std::span<const RoutineUse> routines() const;
-  Span at() const { return {source_, offset_, shape_->length}; }
+  Span at() const { return {shape_->source, offset_, shape_->length}; }
   // To make another one of it.
   ProgramDraft draft() const;
 
@@ -109,13 +109,20 @@ class ExpressionProgram {
     std::vector<Span> places;  // of all nodes, where one is in another text
   };
   bool has_whole_atoms() const { return more_ && !more_->atoms.empty(); }
+  // Of all atoms, one after the other.
+  std::int32_t argument(std::size_t number) const;
+  // As many as `numbers_` has, which are these constants and arguments.
+  static std::size_t count_of_numbers(std::size_t constants, std::size_t arguments) {
+    return constants + (arguments + 1) / 2;
+  }
 
+  // Large models have a great many: with the counters in front of it, it just fills the 56 bytes that a block of 64
+  // holds.
   std::shared_ptr<const ProgramShape> shape_;
-  const SourceText* source_;
-  std::uint32_t offset_;  // in it
-  // Constants of nodes, then arguments of atoms: a double holds every id exactly.
+  // Constants of nodes, and behind them arguments of atoms, two in the place of one number.
   std::unique_ptr<double[]> numbers_;
   std::unique_ptr<const More> more_;
+  std::uint32_t offset_;  // where it begins in the source
 };
 
 }  // namespace dynalin

@@ -52,12 +52,14 @@ std::string reason_for_no_value(const DraftNode& node, std::span<const double> a
 }  // namespace
 
 ProgramBuilder::ProgramBuilder(Diagnostics& diagnostics, ProgramShapes& shapes, std::size_t words)
-    : diagnostics_(diagnostics), shapes_(shapes) {
+    : diagnostics_(diagnostics), shapes_(shapes), program_(shapes.take_draft()) {
   constexpr std::size_t some = 4;
   program_.nodes.reserve(words);
   program_.places.reserve(words);
   program_.atoms.reserve(some);
 }
+
+ProgramBuilder::~ProgramBuilder() { shapes_.give_back(std::move(program_)); }
 
 std::int32_t ProgramBuilder::push(const DraftNode& node, const Span& at) {
   program_.add(node, at);

@@ -41,6 +41,9 @@ class ProgramBuilder {
  public:
   // Of so many words, numbers and signs, each of which makes one node at the most where nothing is a vector.
   ProgramBuilder(Diagnostics& diagnostics, ProgramShapes& shapes, std::size_t words);
+  ProgramBuilder(const ProgramBuilder&) = delete;
+  ProgramBuilder& operator=(const ProgramBuilder&) = delete;
+  ~ProgramBuilder();
 
   Operand constant(double value, const Span& at);
   // Stands for what could not be understood: NaN, which silences the checks of whatever uses it.

@@ -29,6 +29,11 @@ struct ProgramDraft {
   std::vector<RoutineUse> routines;
   Span at;
 
+  // Keeps the memory of its lists.
+  void clear() {
+    nodes.clear(), operands.clear(), places.clear(), atoms.clear(), splines.clear(), routines.clear();
+    at = {};
+  }
   void add(const DraftNode& node, const Span& place) {
     nodes.push_back(node);
     places.push_back(place);

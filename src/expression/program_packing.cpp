@@ -1,5 +1,6 @@
 // From the draft of a program to the program and back.
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "expression/program.h"
@@ -24,13 +25,15 @@ bool has_constant(Kind kind) { return kind == Kind::constant || kind == Kind::po
 
 }  // namespace
 
-ExpressionProgram::ExpressionProgram(const ProgramDraft& draft, ProgramShapes& shapes)
-    : source_(draft.at.source), offset_(draft.at.offset) {
+ExpressionProgram::ExpressionProgram(const ProgramDraft& draft, ProgramShapes& shapes) : offset_(draft.at.offset) {
   ProgramShape& shape = shapes.blank();
+  const SourceText* const source = shape.source = draft.at.source;
   for (const DraftNode& node : draft.nodes) shape.constants += has_constant(node.kind);
-  std::size_t count = shape.constants;
-  for (const Atom& atom : draft.atoms) count += atom.argument_count;
-  numbers_ = std::make_unique_for_overwrite<double[]>(count);
+  const bool has_whole_atoms =
+      !std::ranges::all_of(draft.atoms, [&](const Atom& atom) { return fits_shape(atom, source); });
+  std::size_t arguments = 0;
+  for (const Atom& atom : draft.atoms) arguments += has_whole_atoms ? 0 : atom.argument_count;
+  numbers_ = std::make_unique_for_overwrite<double[]>(count_of_numbers(shape.constants, arguments));
   double* number = numbers_.get();
   More more{draft.splines, draft.routines, {}, {}};
   const auto from_start = [&](std::uint32_t offset, std::uint32_t length) {
@@ -51,23 +54,25 @@ ExpressionProgram::ExpressionProgram(const ProgramDraft& draft, ProgramShapes& s
       if (known == shape.functions.end()) shape.functions.push_back(node.function);
     }
   }
-  if (std::ranges::all_of(draft.places, [&](const Span& place) { return place.source == source_; })) {
+  if (std::ranges::all_of(draft.places, [&](const Span& place) { return place.source == source; })) {
     shape.places.reserve(draft.places.size());
     for (const Span& place : draft.places) shape.places.push_back(from_start(place.offset, place.length));
   } else {
     more.places = draft.places;
   }
-  if (std::ranges::all_of(draft.atoms, [&](const Atom& atom) { return fits_shape(atom, source_); })) {
+  if (has_whole_atoms) {
+    more.atoms = draft.atoms;
+  } else {
+    auto* argument = reinterpret_cast<std::byte*>(number);
     for (const Atom& atom : draft.atoms) {
       shape.atoms.push_back({atom.function, from_start(atom.at.offset, atom.at.length),
                              static_cast<std::uint32_t>(shape.arguments.size()), atom.argument_count});
       for (std::size_t k = 0; k < atom.argument_count; ++k) {
         shape.arguments.push_back(from_start(atom.argument_place[k].offset, atom.argument_place[k].length));
-        *number++ = atom.argument[k];
+        std::memcpy(argument, &atom.argument[k], sizeof atom.argument[k]);
+        argument += sizeof atom.argument[k];
       }
     }
-  } else {
-    more.atoms = draft.atoms;
   }
   shape_ = shapes.shared(shape);
   const bool any = !more.splines.empty() || !more.routines.empty() || !more.atoms.empty() || !more.places.empty();
@@ -75,8 +80,8 @@ ExpressionProgram::ExpressionProgram(const ProgramDraft& draft, ProgramShapes& s
 }
 
 ExpressionProgram::ExpressionProgram(const ExpressionProgram& other, std::vector<SplineUse> splines)
-    : shape_(other.shape_), source_(other.source_), offset_(other.offset_) {
-  const std::size_t count = shape_->constants + shape_->arguments.size();
+    : shape_(other.shape_), offset_(other.offset_) {
+  const std::size_t count = count_of_numbers(shape_->constants, shape_->arguments.size());
   numbers_ = std::make_unique_for_overwrite<double[]>(count);
   std::copy_n(other.numbers_.get(), count, numbers_.get());
   More more = other.more_ ? *other.more_ : More{};
@@ -94,7 +99,14 @@ std::span<const RoutineUse> ExpressionProgram::routines() const {
 Span ExpressionProgram::place(std::size_t node) const {
   if (more_ && !more_->places.empty()) return more_->places[node];
   const ProgramShape::Place& place = shape_->places[node];
-  return {source_, offset_ + place.offset, place.length};
+  return {shape_->source, offset_ + place.offset, place.length};
+}
+
+std::int32_t ExpressionProgram::argument(std::size_t number) const {
+  std::int32_t value;
+  const auto* const first = reinterpret_cast<const std::byte*>(numbers_.get() + shape_->constants);
+  std::memcpy(&value, first + number * sizeof value, sizeof value);
+  return value;
 }
 
 Atom ExpressionProgram::atom(std::size_t number) const {
@@ -103,11 +115,11 @@ Atom ExpressionProgram::atom(std::size_t number) const {
   Atom atom;
   atom.function = shape.function;
   atom.argument_count = static_cast<std::uint8_t>(shape.argument_count);
-  atom.at = {source_, offset_ + shape.at.offset, shape.at.length};
+  atom.at = {shape_->source, offset_ + shape.at.offset, shape.at.length};
   for (std::size_t k = 0; k < shape.argument_count; ++k) {
-    const std::size_t argument = shape.first_argument + k;
-    const ProgramShape::Place& place = shape_->arguments[argument];
-    atom.argument[k] = static_cast<std::int32_t>(numbers_[shape_->constants + argument]);
+    const std::size_t its_number = shape.first_argument + k;
+    const ProgramShape::Place& place = shape_->arguments[its_number];
+    atom.argument[k] = argument(its_number);
     atom.argument_place[k] = {offset_ + place.offset, place.length};
   }
   return atom;

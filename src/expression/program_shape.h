@@ -5,12 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace dynalin {
 
+class SourceText;
 struct AtomFunction;
 struct Function;
 
@@ -51,7 +50,8 @@ struct ProgramShape {
     friend bool operator==(const ShapeOfAtom&, const ShapeOfAtom&) = default;
   };
 
-  std::uint32_t length = 0;                // of the text of the expression
+  const SourceText* source = nullptr;      // where the expressions stand
+  std::uint32_t length = 0;                // of the text of each
   std::uint32_t constants = 0;             // that nodes have
   std::vector<ExpressionNode> nodes;       // the last one is the result
   std::vector<std::int32_t> operands;      // that nodes refer to
@@ -62,20 +62,6 @@ struct ProgramShape {
   std::vector<Place> arguments;  // of the atoms, where they stand
 
   friend bool operator==(const ProgramShape&, const ProgramShape&) = default;
-};
-
-// Shapes of the expressions read so far.
-class ProgramShapes {
- public:
-  // An empty one to be filled, in memory that is used again.
-  ProgramShape& blank();
-  // The one that is equal to this.
-  std::shared_ptr<const ProgramShape> shared(const ProgramShape&);
-
- private:
-  static constexpr std::size_t most = 4096;  // so that a model of unlike expressions keeps no second list of them
-  std::unordered_multimap<std::size_t, std::shared_ptr<const ProgramShape>> by_hash_;
-  ProgramShape blank_;
 };
 
 }  // namespace dynalin

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <map>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
 
-#include "expression/program_shape.h"
+#include "base/block_memory.h"
+#include "expression/program_shapes.h"
 #include "model/kind_finder.h"
 #include "model/model_reader.h"
 #include "routine/routine_data.h"
@@ -51,8 +55,7 @@ class Builder {
   Parsed<std::unique_ptr<Model>> build() {
     register_statements();
     read_statements();
-    // What follows needs none of these, and memory of its own.
-    known_ = std::vector<Known>(), bodies_at_ = std::vector<Span>(), shapes_ = ProgramShapes();
+    shapes_ = ProgramShapes();  // what follows does not need it, and memory of its own
     // Later phases use values of other elements; after an error, reported here or when the text was read, these may be
     // half read.
     const auto& statements = model_->dataset->statements;
@@ -97,7 +100,8 @@ class Builder {
     return *model_->sets[static_cast<std::size_t>(set_index(kind, active))];
   }
 
-  // What is known of a statement until it is read: 16 bytes, since there are as many as statements.
+  // What is known of a statement until it is read: 16 bytes, since there are as many as statements. Each goes as soon
+  // as its statement is read.
   struct Known {
     std::int32_t set = no_set;
     std::int32_t index = 0;  // in it
@@ -131,15 +135,18 @@ class Builder {
       set->reserve(elements);
       of_statement[set->kind().statement] += elements;
     }
+    registered_.resize(model_->sets.size());
+    std::size_t bodies = 0;
     for (const auto& [statement, elements] : of_statement) {
       const Kind::Role role = finder_.kinds_of(statement).front()->role;
       if (role == Kind::Role::marker)
         model_->marker_ids.reserve(elements);
       else if (role == Kind::Role::body)
-        model_->body_ids[std::string(statement)].reserve(elements);
+        model_->body_ids[std::string(statement)].reserve(elements), bodies += elements;
       else if (role == Kind::Role::element || role == Kind::Role::inert)
         model_->ids[std::string(statement)].reserve(elements);
     }
+    bodies_at_.reserve(bodies + 1);  // the ground may be none of them
   }
 
   // First pass: every id becomes known, so statements may refer to later ones.
@@ -150,8 +157,10 @@ class Builder {
     find_kinds();
     BodyId preceding;
     const Statement* ground = nullptr;
+    std::size_t number = 0;
     auto known = known_.begin();
     for (const Statement& s : statements) {
+      registering_ = number++;
       Known& k = *known++;
       if (is_passed_over(s)) continue;
       const std::int32_t its_set = std::exchange(k.set, Known::no_set);
@@ -168,10 +177,10 @@ class Builder {
         if (!s.damaged) diagnostics_.error("missing-id", s.at, fmt::format("{} needs an id: {}/1", s.name, s.name));
         continue;
       }
-      const ElementLabel label{kind->statement, s.id.value_or(0), s.view_name, s.at};
-      if (kind->role == Kind::Role::singleton && set->size() > 0) {
+      std::int32_t& registered = registered_[static_cast<std::size_t>(its_set)];
+      if (kind->role == Kind::Role::singleton && registered > 0) {
         diagnostics_.error("duplicate-statement", s.at, fmt::format("{} is given twice", s.name))
-            .notes.push_back({set->labels.front().at, "the first one is here"});
+            .notes.push_back({place_of({its_set, 0}), "the first one is here"});
         continue;
       }
       if (kind->role == Kind::Role::singleton && s.id)
@@ -179,18 +188,18 @@ class Builder {
                              fmt::format("{} exists once and takes no id: /{} means nothing", s.name, *s.id));
       // What has no effect of its own may be named all the same: the GRAPHICS of a CONTACT.
       const bool has_id = needs_id || (is_beside_model(*kind) && s.id);
-      if (has_id && !register_id(*kind, label, *set, s, preceding, ground)) continue;
+      if (has_id && !register_id({its_set, registered}, s, preceding, ground)) continue;
       if (kind->role == Kind::Role::element && s.id && is_examined(s.name))
         examined_.emplace(std::pair(s.name, *s.id), &s);
       k.set = its_set;
-      k.index = static_cast<std::int32_t>(set->size());
+      k.index = registered++;
       k.preceding_body = preceding;
-      set->append(label);
     }
     model_->markers.reserve(marker_count_);
     model_->bodies.reserve(bodies_at_.size());
     // Of a file without any text it has been said already.
     const bool empty = model_->dataset->source->text().find_first_not_of(" \t\f\v\r\n") == std::string_view::npos;
+    bodies_at_ = std::vector<Span>(), places_.clear();
     if (ground || empty) return;
     const bool none = std::ranges::all_of(statements, [](const Statement& s) { return s.name == "END"; });
     diagnostics_.error("missing-ground", {},
@@ -198,8 +207,22 @@ class Builder {
                        none ? "a model has a PART/1, GROUND at least" : "");
   }
 
-  bool register_id(const Kind& kind, const ElementLabel& label, const ElementSet& set, const Statement& s,
-                   BodyId& preceding, const Statement*& ground) {
+  // Where an element stands that is registered: for the rare second one, so all are looked up when the first is met.
+  Span place_of(ElementHandle registered) {
+    for (; looked_up_ < registering_; ++looked_up_) {
+      const std::int32_t set = known_[looked_up_].set;
+      if (set != Known::no_set) places_[set].push_back(model_->dataset->statements[looked_up_].at);
+    }
+    return places_[registered.set][static_cast<std::size_t>(registered.index)];
+  }
+
+  static ElementLabel label_of(const Kind& kind, const Statement& s) {
+    return {kind.statement, s.id.value_or(0), s.view_name(), s.at};
+  }
+
+  bool register_id(ElementHandle handle, const Statement& s, BodyId& preceding, const Statement*& ground) {
+    const Kind& kind = model_->set(handle).kind();
+    const ElementLabel label = label_of(kind, s);
     const auto duplicate = [&](const Span& first) {
       diagnostics_.error("duplicate-id", s.at, fmt::format("{} is defined twice", label.text()))
           .notes.push_back({first, "the first definition is here"});
@@ -209,7 +232,7 @@ class Builder {
       const MarkerId m{static_cast<std::int32_t>(marker_count_)};
       const auto [known, fresh] = model_->marker_ids.emplace(*s.id, m);
       // Marker k of its set is marker k + 1 of the model.
-      if (!fresh) return duplicate(set.labels[static_cast<std::size_t>(known->index) - 1].at);
+      if (!fresh) return duplicate(place_of({handle.set, known->index - 1}));
       ++marker_count_;
       return true;
     }
@@ -232,17 +255,16 @@ class Builder {
       preceding = b;
       return true;
     }
-    const std::int32_t index = set_index(kind, set.active);
-    const auto [known, fresh] =
-        ids_of(kind).emplace(*s.id, ElementHandle{index, static_cast<std::int32_t>(set.size())});
-    if (!fresh) return duplicate(known->valid() ? model_->label(*known).at : Span{});
+    const auto [known, fresh] = ids_of(kind).emplace(*s.id, handle);
+    if (!fresh) return duplicate(known->valid() ? place_of(*known) : Span{});
     return true;
   }
 
-  // A body or marker of the model is made when its statement is read and not earlier, as elements are
+  // The label, and a body or marker of the model, are made when the statement is read and not earlier, as elements are
   // (ElementSet::make).
   void make_in_model(const Placement& p) {
     const Kind& kind = p.set->kind();
+    p.set->append(label_of(kind, *p.statement));
     const ElementLabel& label = p.set->labels[p.at()];
     if (kind.role == Kind::Role::marker) model_->markers.emplace_back().label = &label;
     if (kind.role != Kind::Role::body || p.preceding_body == ground_body) return;
@@ -255,9 +277,9 @@ class Builder {
   void read_statements() {
     auto read = read_once_ ? read_once_->statements.begin() : std::deque<Statement>::iterator{};
     bool label_is_known = false;
-    auto known = known_.begin();
     for (const Statement& s : model_->dataset->statements) {
-      const Known& k = *known++;
+      const Known k = known_.front();
+      known_.pop_front();
       // SENVAL asks for arguments of others, by their names alone.
       for (; read_once_ && &*read != &s; ++read) {
         if (!is_examined(read->name)) read_once_->release_arguments(*read);
@@ -282,7 +304,11 @@ class Builder {
   std::unique_ptr<Model> model_;
   std::unordered_map<const Kind*, PlacesOfKind> places_of_kind_;
   Diagnostics diagnostics_;
-  std::vector<Known> known_;                            // of each statement
+  BlockMemory memory_of_known_;
+  std::pmr::deque<Known> known_{&memory_of_known_};     // of each statement that is not read yet
+  std::vector<std::int32_t> registered_;                // so many of each set
+  std::size_t registering_ = 0, looked_up_ = 0;         // statements, by their number
+  std::map<std::int32_t, std::vector<Span>> places_;    // of the elements of a set, as far as looked up
   std::size_t marker_count_ = 1;                        // the global frame among them
   std::vector<Span> bodies_at_ = std::vector<Span>(1);  // of each body where it is defined, the ground first
   DatasetWithRoutines routines_;

@@ -109,8 +109,7 @@ void DatasetEditor::redefine(const Statement& command) {
   Statement* target = find(command.name, finder_.identity_of(command));
   if (!target && without_id) {
     Statement& added = out_->statements.emplace_back(command);
-    std::erase_if(added.arguments,
-                  [&](const WrittenArgument& w) { return !w.has_value && is_list(w, kind_of(command)); });
+    added.arguments.erase_if([&](const WrittenArgument& w) { return !w.has_value && is_list(w, kind_of(command)); });
     place_.emplace(key(command.name, 0), out_->statements.size() - 1);
     return;
   }
@@ -141,15 +140,15 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
   }
   // Another type first: it decides what the names of the others mean.
   if (type != command.arguments.end()) {
-    std::erase_if(target.arguments,
-                  [&](const WrittenArgument& old) { return !old.has_value && is_variant(old, variants, kind); });
+    target.arguments.erase_if(
+        [&](const WrittenArgument& old) { return !old.has_value && is_variant(old, variants, kind); });
     target.arguments.push_back(*type);
     kind = kind_of(target);
   }
   if (kind != before_command && kind) {
     // What only the type before has goes with it.
     std::vector<std::string_view> dropped;
-    std::erase_if(target.arguments, [&](const WrittenArgument& old) {
+    target.arguments.erase_if([&](const WrittenArgument& old) {
       const ArgumentInfo* info = info_of(kind, old.name.text());
       if (is_variant(old, variants, kind) || (info && !info->elsewhere)) return false;
       dropped.push_back(full_name(before_command, old.name.text()));
@@ -171,7 +170,7 @@ void DatasetEditor::merge(Statement& target, const Statement& command) {
     target.arguments.push_back(w);
     if (info) note_start(command, *info);
   }
-  std::erase_if(target.arguments, [](const WrittenArgument& w) { return w.name.source == nullptr; });
+  target.arguments.erase_if([](const WrittenArgument& w) { return w.name.source == nullptr; });
   target.damaged = target.damaged || command.damaged;
 }
 

@@ -130,7 +130,7 @@ class ElementSet {
   const Kind& kind() const { return *kind_; }
   std::size_t size() const { return labels.size(); }
 
-  // First phase: an id is known. Second phase: the arguments are read. Third: values that need other elements.
+  // First the model learns all ids; second it is appended and its arguments are read; third what needs other elements.
   virtual void append(ElementLabel label) = 0;
   virtual void reserve(std::size_t count) { labels.reserve(count); }  // so many are to come, not more
   virtual void read(std::size_t index, ElementReader&) = 0;

@@ -40,7 +40,7 @@ const RoutineData::Modes* CalledRoutines::modes_of(std::int64_t flex_body) const
       const bool ground = !ground_word.empty() && argument(s, ground_word) != nullptr;
       const ToldBeforehand* part = kind->told_beforehand;
       if (!ground && !(part && part->makes_modes)) continue;
-      std::erase_if(bodies->statements.emplace_back(s).arguments, [&](const WrittenArgument& w) {
+      bodies->statements.emplace_back(s).arguments.erase_if([&](const WrittenArgument& w) {
         const std::string_view name = full_name(s, w);
         return ground ? name != ground_word
                       : !name.empty() && std::ranges::find(part->not_for_modes, name) != part->not_for_modes.end();

@@ -91,7 +91,7 @@ class Replacement {
       for (std::size_t k = 0; k < calls_.size(); ++k) {
         auto& arguments = calls_[k].first->arguments;
         const auto& more = written->statements[k].arguments;
-        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.size(), more);
       }
       out->origins.push_back(written);
       all.calls = written->source;
@@ -133,7 +133,7 @@ class Replacement {
     return kind && kind->constants.size() > 1 && called_.full_name(s, w) != kind->argument;
   }
   void drop_names_of_code(Statement& s) const {
-    std::erase_if(s.arguments, [&](const WrittenArgument& w) { return called_.names_code(s, w); });
+    s.arguments.erase_if([&](const WrittenArgument& w) { return called_.names_code(s, w); });
   }
 
   static std::shared_ptr<const Dataset> generated(std::string name, std::string text) {
@@ -188,7 +188,7 @@ class Replacement {
       return true;
     }
     if (routine) calls_.emplace_back(&s, called_.written(s, call, routine));
-    s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
+    s.arguments.erase(k);
     return true;
   }
 
@@ -214,7 +214,7 @@ class Replacement {
     // One value stands in the place of its own call, several in that of the one call that gives them all.
     const std::string_view own = called_.full_name(s, call);
     const bool single = kind->constants.size() == 1;
-    s.arguments.erase(s.arguments.begin() + static_cast<std::ptrdiff_t>(k));
+    s.arguments.erase(k);
     for (const WrittenArgument& w : constants_->statements.front().arguments) {
       const bool wanted =
           single ? w.name.text() == own

@@ -8,7 +8,7 @@
 
 #include "base/time_taylor.h"
 #include "dataset/lexer.h"
-#include "expression/program_shape.h"
+#include "expression/program_shapes.h"
 #include "target.h"
 
 namespace dynalin::fuzz {

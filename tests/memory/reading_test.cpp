@@ -117,9 +117,9 @@ TEST_P(Reading, allocates_no_more_often_than_so_for_a_statement) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LargeDatasets, Reading,
-                         ::testing::Values(Limits{Kind::exported, 3.9, 6.4}, Limits{Kind::dense, 5.9, 6.4},
-                                           Limits{Kind::jointed, 5.9, 2.9}, Limits{Kind::expressions, 7.4, 9.9},
-                                           Limits{Kind::tables, 3.1, 9.4}, Limits{Kind::mixed, 5.5, 6.8}),
+                         ::testing::Values(Limits{Kind::exported, 3.5, 5.6}, Limits{Kind::dense, 5.2, 5.6},
+                                           Limits{Kind::jointed, 5.2, 2.7}, Limits{Kind::expressions, 6.4, 6.5},
+                                           Limits{Kind::tables, 3.1, 9.4}, Limits{Kind::mixed, 4.8, 4.9}),
                          ::testing::PrintToStringParamName());
 
 }  // namespace

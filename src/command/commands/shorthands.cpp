@@ -11,7 +11,7 @@ std::shared_ptr<const CommandAction> read_shorthand(CommandReader& reader) {
   whole.name = "INTEGRATOR";
   WrittenArgument type;
   type.name = whole.keyword();
-  whole.arguments.insert(whole.arguments.begin(), type);
+  whole.arguments.insert(0, {&type, 1});
   const ElementLabel label{whole.name, 0, "", whole.at};
   CommandReader integrator(whole, reader.source(), reader.diagnostics(), label);
   return find_command(whole.name)->read(integrator);

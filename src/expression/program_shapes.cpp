@@ -1,7 +1,8 @@
-#include "expression/program_shape.h"
+#include "expression/program_shapes.h"
 
 #include <functional>
 #include <initializer_list>
+#include <utility>
 
 namespace dynalin {
 
@@ -44,6 +45,7 @@ std::size_t hash_of(const ProgramShape& shape) {
 }  // namespace
 
 ProgramShape& ProgramShapes::blank() {
+  blank_.source = nullptr;
   blank_.length = blank_.constants = 0;
   blank_.nodes.clear();
   blank_.operands.clear();
@@ -53,6 +55,13 @@ ProgramShape& ProgramShapes::blank() {
   blank_.atoms.clear();
   blank_.arguments.clear();
   return blank_;
+}
+
+ProgramDraft ProgramShapes::take_draft() { return std::exchange(spare_, {}); }
+
+void ProgramShapes::give_back(ProgramDraft draft) {
+  draft.clear();
+  spare_ = std::move(draft);
 }
 
 std::shared_ptr<const ProgramShape> ProgramShapes::shared(const ProgramShape& shape) {
