@@ -58,7 +58,7 @@ template <class F>
 // one before it: what the function is there is kept.
 template <class F>
 [[nodiscard]] Extrapolated differentiate(F&& f, const Real first_step) {
-  constexpr Real sharp = 1e-12L;  // what is compared with it agrees to 1e-9 and is off by 1e-11 at most
+  constexpr Real sharp = 1e-13L;  // what is compared agrees to 1e-9, and is off by 1e-11 at most of a part of its rows
   std::map<Real, std::vector<Real>> known;
   const auto kept = [&](Real step) {
     const auto found = known.find(step);
