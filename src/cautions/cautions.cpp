@@ -71,15 +71,16 @@ void kinks(const System& system, const Motion& motion, Diagnostics& out) {
 // A vibration that is damped just so much that it does not swing has two equal values and one shape: rounding moves
 // them apart along either axis, by far more than the equal values of equal parts.
 bool at_the_limit(const EigenSolution& modes, const EigenMode& m) {
-  constexpr double rounding = 1e-11, apart_by_chance = 1e-6;
+  constexpr double rounding = 1e-11, apart_by_chance = 1e-6, one_vector = 1e12;
   const double size = std::abs(m.eigenvalue_hz);
   if (m.cluster_size > 1) return m.error_bound_hz > rounding * size;
   return std::ranges::any_of(modes.modes, [&](const EigenMode& other) {
     const double distance = std::abs(m.eigenvalue_hz - other.eigenvalue_hz),
                  bound = m.error_bound_hz + other.error_bound_hz;
     if (&other == &m || !other.is_real) return false;
-    return std::isfinite(bound) ? bound > rounding * size && distance <= bound
-                                : distance > rounding * size && distance <= apart_by_chance * size;
+    return std::isfinite(bound)
+               ? bound > rounding * size && distance <= bound
+               : distance <= apart_by_chance * size && (distance > rounding * size || m.condition > one_vector);
   });
 }
 
