@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
+#include "base/dense_solvers.h"
 #include "cautions/motion_caution.h"
 #include "cautions/stiction_caution.h"
 #include "linear/configuration.h"
@@ -66,14 +70,35 @@ void kinks(const System& system, const Motion& motion, Diagnostics& out) {
 
 // A vibration that is damped just so much that it does not swing has two equal values and one shape: rounding moves
 // them apart along either axis, by far more than the equal values of equal parts.
-bool at_the_limit(const EigenMode& m) {
-  constexpr double rounding = 1e-11;
-  return m.cluster_size > 1 && m.error_bound_hz > rounding * std::abs(m.eigenvalue_hz);
+bool at_the_limit(const EigenSolution& modes, const EigenMode& m) {
+  constexpr double rounding = 1e-11, apart_by_chance = 1e-6, one_vector = 1e12;
+  const double size = std::abs(m.eigenvalue_hz);
+  if (m.cluster_size > 1) return m.error_bound_hz > rounding * size;
+  return std::ranges::any_of(modes.modes, [&](const EigenMode& other) {
+    const double distance = std::abs(m.eigenvalue_hz - other.eigenvalue_hz),
+                 bound = m.error_bound_hz + other.error_bound_hz;
+    if (&other == &m || !other.is_real) return false;
+    return std::isfinite(bound)
+               ? bound > rounding * size && distance <= bound
+               : distance <= apart_by_chance * size && (distance > rounding * size || m.condition > one_vector);
+  });
+}
+
+// Of so many zeros of bodies, those that stand alone, beside a value that falls, as of a part that nothing but a damper
+// holds: a freedom that nothing holds at all has a chain of two, a shape and the velocity in which it grows.
+int zeros_that_stand_alone(const EigenSolution& modes, const std::vector<Eigen::Index>& zeros) {
+  if (zeros.empty()) return 0;
+  constexpr double dependent = 1e-9;
+  const Eigen::MatrixXd shapes = modes.vectors(Eigen::all, zeros).real().colwise().normalized();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(shapes);
+  qr.setThreshold(dependent);
+  return std::max(0, 2 * static_cast<int>(qr.rank()) - static_cast<int>(zeros.size()));
 }
 
 void overdamping(const System& system, const LinearSystem& linear, const EigenSolution& modes, Diagnostics& out) {
   if (modes.without_damping) return;
-  int falling = 0, others = 0, elsewhere = 0;
+  int falling = 0, growing = 0, elsewhere = 0;
+  std::vector<Eigen::Index> zeros;
   const EigenMode* slowest = nullptr;
   std::size_t number = 0;
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -82,15 +107,17 @@ void overdamping(const System& system, const LinearSystem& linear, const EigenSo
       elsewhere += m.is_real ? 1 : 2;
       continue;
     }
-    if (!m.is_real || at_the_limit(m)) continue;
+    if (m.structural_zero) zeros.push_back(static_cast<Eigen::Index>(k));
+    if (!m.is_real || m.eigenvalue_hz == 0.0 || at_the_limit(modes, m)) continue;
     const bool falls = m.eigenvalue_hz.real() < 0;
-    ++(falls ? falling : others);
+    ++(falls ? falling : growing);
     if (falls && !slowest) slowest = &m, number = k + 1;
   }
   // Coordinates of first order and states of controllers bring one real mode each, and there are as many of the states
   // among those of bodies as no mode of their own shows: a controller that moves bodies is no vibration behind them.
   const int of_controllers = std::max(0, static_cast<int>(linear.differential_states) - elsewhere);
-  const int pairs = (falling - others - static_cast<int>(linear.first_order) - of_controllers) / 2;
+  const int alone = growing + zeros_that_stand_alone(modes, zeros);
+  const int pairs = (falling - alone - static_cast<int>(linear.first_order) - of_controllers) / 2;
   if (pairs < 1 || !slowest) return;
   out.warning("overdamped-modes", {},
               fmt::format("{} mode{} overdamped, the slowest is mode {} of {}: with NODAMPIN the vibrations behind "

@@ -12,6 +12,7 @@
 #include "eigenvalues/included_values.h"
 #include "eigenvalues/inverse_iteration.h"
 #include "eigenvalues/isolated_values.h"
+#include "eigenvalues/parallel_vectors.h"
 #include "eigenvalues/uncertainty_along.h"
 
 namespace dynalin {
@@ -115,12 +116,12 @@ std::vector<EigenTrust> refine(const StructuredPencil& pencil, const ZeroModes& 
     const auto at = static_cast<std::size_t>(i);
     return trust[at].cluster == 1 && trust[at].bound < part * gap[at];
   };
-  bool all_apart = false;
+  bool all_apart = false, any_apart = false;
   for (int pass = 0; pass < 2; ++pass) {
     const EigenResiduals residuals(pencil, zero, pairs);
     std::optional<IsolatedValues> found = isolated_values(pairs, residuals);
     if (!found) break;
-    all_apart = found->all, trust = std::move(found->trust);
+    any_apart = true, all_apart = found->all, trust = std::move(found->trust);
     gap = nearest(zero, pairs);
     // Bounds that are not small against the gaps want better vectors. Eigenvalues that are small against the others are
     // a matter of inverse iteration.
@@ -140,6 +141,9 @@ std::vector<EigenTrust> refine(const StructuredPencil& pencil, const ZeroModes& 
         const auto at = static_cast<Index>(i);
         trust[i].unknown = along(at, at) / std::abs(pairs.left.col(at).dot(pairs.right.col(at)));
       }
+    } else if (!found && !any_apart) {
+      if (std::optional<GroupedValues> grouped = values_in_groups(pencil, zero, pairs))
+        pairs = std::move(grouped->pairs), trust = std::move(grouped->trust);
     }
   }
   gap = nearest(zero, pairs);

@@ -177,8 +177,11 @@ class Inclusion {
     joined = i == 0 ? 1 : 0;
     double most = -1;
     for (Index j = 0; j < q; ++j) {
-      // A block that is not known to within its distance is as good as here, coupled or not.
-      const double coupling = j == i ? -1 : std::max({E_(i, j), E_(j, i), E_(j, j)}) / apart(j);
+      // Units of blocks are arbitrary, so that only both couplings together say how close two are: one of them alone
+      // may be large where nothing is. A block that is not known to within its distance is as good as here, coupled or
+      // not.
+      const double both = std::sqrt(E_(i, j)) * std::sqrt(E_(j, i));
+      const double coupling = j == i ? -1 : std::max(both, E_(j, j)) / apart(j);
       if (coupling > most) most = coupling, joined = j;
     }
     return std::nullopt;

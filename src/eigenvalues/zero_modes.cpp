@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "eigenvalues/rounding.h"
@@ -263,9 +264,31 @@ class Splitter {
 }  // namespace
 
 Matrix last_links(const Matrix& chains) {
+  constexpr double cancelled = 1e-12;  // of what is added up: nothing
   const Index count = chains.rows();
-  Matrix v = Matrix::Identity(count, count);
+  Matrix v = Matrix::Identity(count, count), images = chains, combinations = v;
+  std::vector<std::pair<Index, Index>> pivots;  // column of images, and the row of its pivot
   for (Index c = 0; c < count; ++c) {
+    // What earlier columns of N make of it is taken off, and of the vectors alike: where nothing is left, a combination
+    // of links is null that no chain ends with.
+    Eigen::VectorXd combination = Eigen::VectorXd::Unit(count, c);
+    for (const auto& [column, row] : pivots) {
+      if (images(row, c) == 0) continue;
+      const double share = images(row, c) / images(row, column);
+      const Eigen::VectorXd part = share * images.col(column);
+      const Eigen::VectorXd sum = images.col(c).cwiseAbs() + part.cwiseAbs();
+      images.col(c) -= part;
+      images.col(c) = (images.col(c).array().abs() <= cancelled * sum.array()).select(0.0, images.col(c));
+      images(row, c) = 0;
+      combination -= share * combinations.col(column);
+    }
+    combinations.col(c) = combination;
+    Index row = 0;
+    if (images.col(c).cwiseAbs().maxCoeff(&row) == 0 && combination.allFinite()) {
+      v.col(c) = combination / combination.cwiseAbs().maxCoeff();
+      continue;
+    }
+    pivots.emplace_back(c, row);
     // Each link ends above the one before. Along a chain lengths may grow beyond all numbers.
     for (Index top = c; top > 0; --top) {
       const Eigen::VectorXd next = chains.topLeftCorner(top, top + 1) * v.col(c).head(top + 1);

@@ -28,12 +28,15 @@ struct ZeroModes {
 
   Eigen::MatrixXd right() const { return scale.asDiagonal() * basis; }               // T
   Eigen::MatrixXd left() const { return scale.cwiseInverse().asDiagonal() * dual; }  // T⁻ᵀ
-  // Eigenvectors of A, one for each zero, the last link of the chain it belongs to.
+  // Eigenvectors of A that span all there are, one for each zero: where there are fewer, some are the last link of the
+  // chain to which the zero belongs.
   Eigen::MatrixXd vectors() const;
   bool defective() const { return !block.topLeftCorner(count, count).isZero(0); }
 };
 
-// Of unit vectors, the last vector that a strictly upper triangular N makes of each before it makes nothing.
+// A column for each unit vector, of which a strictly upper triangular N makes nothing: the vector itself, combined with
+// earlier ones, if that is null, else the last one that N makes of it before it makes nothing. They span all that is
+// null.
 Eigen::MatrixXd last_links(const Eigen::MatrixXd& N);
 
 // `rounding` holds what each entry of A may carry.

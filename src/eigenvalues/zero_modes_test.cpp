@@ -16,6 +16,18 @@ TEST(last_links, of_two_chains_are_their_first_vectors) {
   EXPECT_EQ(last, expected);
 }
 
+// e₂, e₃ → e₁, and e₄ → e₂ + 2 e₃: e₂ − e₃ is null, and ends no chain.
+TEST(last_links, span_what_is_null_though_no_chain_ends_there) {
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(4, 4);
+  N(0, 1) = 1, N(0, 2) = 1, N(1, 3) = 1, N(2, 3) = 2;
+  const Eigen::MatrixXd last = last_links(N);
+  EXPECT_TRUE((N * last).isZero(1e-15)) << last;
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 4);
+  expected.row(0) << 1, 1, 0, 1;
+  expected(1, 2) = -1, expected(2, 2) = 1;
+  EXPECT_EQ(last, expected);
+}
+
 // (10³⁰)³⁹⁹ is no number, and its direction is.
 TEST(last_links, of_a_chain_that_grows_beyond_all_numbers_is_a_number) {
   Eigen::MatrixXd N = Eigen::MatrixXd::Zero(400, 400);

@@ -2,9 +2,12 @@
 // contribution beside large ones is lost, and whether every single one vanishes cannot be seen any more.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "base/vec3.h"
 
 namespace dynalin {
 
@@ -34,7 +37,7 @@ struct ElementTrace {
   std::vector<double> coefficients;  // of terms: how much of what the term reads an equation takes
 
   void clear() {
-    elements.clear(), partials.clear(), loads.clear(), coefficients.clear();
+    elements.clear(), partials.clear(), loads.clear(), coefficients.clear(), laws.clear();
     term = -1;
     begin(nullptr, -1, 0);
   }
@@ -49,6 +52,21 @@ struct ElementTrace {
   }
 
   std::int32_t term = -1;  // the one that is being added
+
+  // One force and torque at a point as its law gives it, in axes of its own: turned into those of the ground a soft
+  // direction would be lost in the rounding of a stiff one. It is all that its element adds to the balance of bodies.
+  struct Law {
+    struct Partial {  // of force and torque about that point where it was, along the axes as they were
+      PartialBy family;
+      std::int32_t column;
+      std::array<double, 6> value;
+    };
+    std::size_t element;  // its place among these
+    Matrix3 axes;
+    Vector origin, force, torque;
+    std::vector<Partial> partials;
+  };
+  std::vector<Law> laws;
 };
 
 }  // namespace dynalin

@@ -177,6 +177,8 @@ class Equations {
     desks_.resize(count);
     return desks_;
   }
+  // Where they are noted, for what an element knows beyond what it adds.
+  ElementTrace* noted() const { return wants_any_ ? trace_ : nullptr; }
   // What each element adds on its own can only be told one after the other.
   bool can_be_shared() const { return !trace_; }
 

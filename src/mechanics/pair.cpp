@@ -19,7 +19,30 @@ Matrix3 block(const std::array<std::array<double, 6>, 6>& m, std::size_t row, st
   return b;
 }
 
-Matrix3 congruent(const Matrix3& R, const Matrix3& m) { return R * m * transpose(R); }
+// The partials of a law but for the turn of its axes, in such as `to` leads to from those of J.
+void add_law(const PairMotion& p, const RelativeWrench& w, const Matrix3& to, PairForce& out) {
+  const Matrix3 back = transpose(value(p.axes_J));
+  // δξ = Rᵀ G δ(p_I, φ_I, p_J, φ_J) with G = (1, 0, −1, Δ×) for d and (0, 1, 0, −1) for φ, all in global components.
+  const Matrix3 delta = skew(value(p.delta));
+  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, std::size_t row, MarkerPartials& by) {
+    const Matrix3 on_d = to * block(m, row, 0) * back, on_phi = to * block(m, row, 3) * back;
+    by.origin_I += on_d, by.axes_I += on_phi;
+    by.origin_J -= on_d, by.axes_J += on_d * delta - on_phi;
+  };
+  add(w.on_pose, 0, out.force_on_position), add(w.on_pose, 3, out.torque_on_position);
+  if (w.depends_on_rate) {
+    add(w.on_rate, 0, out.force_on_velocity), add(w.on_rate, 3, out.torque_on_velocity);
+    // δξ′ = Rᵀ (G δ(…)′ + (Ġ − ω× G) δ(…)), as (Rᵀ)′ = −Rᵀ ω×.
+    const Matrix3 omega = skew(p.w_J), turning = skew(rate(p.delta)) - omega * delta;
+    const auto add_rate = [&](std::size_t row, MarkerPartials& by) {
+      const Matrix3 on_d = to * block(w.on_rate, row, 0) * back, on_phi = to * block(w.on_rate, row, 3) * back;
+      const Matrix3 d = on_d * omega, phi = on_phi * omega;
+      by.origin_I -= d, by.axes_I -= phi;
+      by.origin_J += d, by.axes_J += on_d * turning + phi;
+    };
+    add_rate(0, out.force_on_position), add_rate(3, out.torque_on_position);
+  }
+}
 
 }  // namespace
 
@@ -54,30 +77,45 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, Partials wanted) 
   out.levers = w.levers;
   if (wanted == Partials::no) return out;
 
-  // δξ = Rᵀ G δ(p_I, φ_I, p_J, φ_J) with G = (1, 0, −1, Δ×) for d and (0, 1, 0, −1) for φ, all in global components.
-  const Matrix3 delta = skew(value(p.delta));
-  const auto add = [&](const std::array<std::array<double, 6>, 6>& m, std::size_t row, MarkerPartials& by) {
-    const Matrix3 on_d = congruent(R, block(m, row, 0)), on_phi = congruent(R, block(m, row, 3));
-    by.origin_I += on_d, by.axes_I += on_phi;
-    by.origin_J -= on_d, by.axes_J += on_d * delta - on_phi;
-  };
-  add(w.on_pose, 0, out.force_on_position), add(w.on_pose, 3, out.torque_on_position);
-  if (w.depends_on_rate) {
-    add(w.on_rate, 0, out.force_on_velocity), add(w.on_rate, 3, out.torque_on_velocity);
-    // δξ′ = Rᵀ (G δ(…)′ + (Ġ − ω× G) δ(…)), as (Rᵀ)′ = −Rᵀ ω×.
-    const Matrix3 omega = skew(p.w_J), turning = skew(rate(p.delta)) - omega * delta;
-    const auto add_rate = [&](std::size_t row, MarkerPartials& by) {
-      const Matrix3 on_d = congruent(R, block(w.on_rate, row, 0)), on_phi = congruent(R, block(w.on_rate, row, 3));
-      const Matrix3 d = on_d * omega, phi = on_phi * omega;
-      by.origin_I -= d, by.axes_I -= phi;
-      by.origin_J += d, by.axes_J += on_d * turning + phi;
-    };
-    add_rate(0, out.force_on_position), add_rate(3, out.torque_on_position);
-  }
+  add_law(p, w, R, out);
   // The axes in which the wrench is given turn with J.
   out.force_on_position.axes_J -= skew(out.force);
   out.torque_on_position.axes_J -= skew(out.torque);
   return out;
+}
+
+void note_law(const PairMotion& p, const RelativeWrench& w, const std::array<double, 6>& rounding, Equations& eq) {
+  ElementTrace* const trace = eq.noted();
+  if (!trace) return;
+  RelativeWrench law = w;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::abs(law.force[k]) <= rounding[k]) law.force[k] = 0;
+    if (std::abs(law.torque[k]) <= rounding[3 + k]) law.torque[k] = 0;
+  }
+  const Matrix3 R = value(p.axes_J), back = transpose(R);
+  PairForce own;
+  own.depends_on_velocity = law.depends_on_rate;
+  add_law(p, law, Matrix3::identity(), own);
+  // A turn of the axes of J, δφ_J, takes the wrench along.
+  own.force_on_position.axes_J -= skew(law.force) * back;
+  own.torque_on_position.axes_J -= skew(law.torque) * back;
+  ElementTrace::Law& noted = trace->laws.emplace_back();
+  noted.element = trace->elements.size() - 1;
+  noted.axes = R;
+  noted.origin = p.motion->body(p.body_I).r + value(p.arm_I);
+  noted.force = R * law.force, noted.torque = R * law.torque;
+  for_each_block(p, eq.layout(), [&](const PairBlock& b) {
+    BlockPartials by = partials_by(b, own);
+    // About the point where the origin of I was: δp_I × F.
+    if (!b.of_J) by.torque -= skew(law.force) * (back * b.moves);
+    const auto add = [&](PartialBy family, const Matrix3& F, const Matrix3& T) {
+      for (std::size_t c = 0; c < b.count; ++c)
+        noted.partials.push_back(
+            {family, b.column + static_cast<std::int32_t>(c), {F[c].x, F[c].y, F[c].z, T[c].x, T[c].y, T[c].z}});
+    };
+    add(PartialBy::position, by.force, by.torque);
+    if (own.depends_on_velocity) add(PartialBy::damping, by.force_by_rate, by.torque_by_rate);
+  });
 }
 
 PairForce along_line(const PairMotion& p, const LineMagnitude& F, Partials wanted) {

@@ -219,9 +219,12 @@ void write_eigen_table(std::ostream& out, const EigenSolution& e, const std::str
     const auto digits = [&](double v) {
       return fmt::format("{:.7g}{}", v + 0.0, doubt(certain(v, compared, bound, 7)));
     };
+    // Nor is that a value is real known of one without a bound.
+    const bool is_known_real = m.is_real && std::isfinite(bound);
     line(std::to_string(++number), digits(size),
-         fmt::format("{:.5f}{}", ratio + 0.0, doubt(m.structural_zero || m.is_real || bound <= 1e-5 * compared)),
-         digits(m.eigenvalue_hz.real()), m.is_real ? "0" : "+/- " + digits(m.eigenvalue_hz.imag()),
+         fmt::format("{:.5f}{}", ratio + 0.0, doubt(m.structural_zero || is_known_real || bound <= 1e-5 * compared)),
+         digits(m.eigenvalue_hz.real()),
+         m.is_real ? fmt::format("0{}", doubt(is_known_real)) : "+/- " + digits(m.eigenvalue_hz.imag()),
          columns(m.structural_zero ? "exact" : fmt::format("{:.1e}", m.error_bound_hz),
                  fmt::format("{:.1e}", m.condition)),
          m.moves_most);

@@ -24,7 +24,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-// Rows of one element on one body, force then moment by length, in units of its size.
+// Rows of one element on one body, or of the law of one in its own axes: force, then moment by length.
 struct CarriedForces::OnBody {
   Matrix change;                                    // 6 × directions
   Vector6 load;                                     // force and moment by length
@@ -33,7 +33,9 @@ struct CarriedForces::OnBody {
   double made_of = 0;                               // the most that a component of the load has been added up from
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  // of the BCS
   bool turns = true;
-  double size = 0;
+  Vector6 size = Vector6::Zero();  // that rows are in units of
+  bool is_law = false;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // of the rows
 };
 
 CarriedForces::CarriedForces(const System& system, const Motion& motion, const ConstraintRows& rows,
@@ -106,8 +108,16 @@ void CarriedForces::add(const Directions& d, std::vector<Eigen::RowVectorXd>& ro
     }
     for (auto& [b, on] : touched) {
       group[static_cast<std::size_t>(root(b))] = root(touched.begin()->first);
-      on.size = std::max(on.sums.maxCoeff(), on.made_of);
-      if (on.size > 0) bodies[b].push_back(std::move(on));
+      on.size.setConstant(std::max(on.sums.maxCoeff(), on.made_of));
+      if (e.laws.empty() && on.size(0) > 0) bodies[b].push_back(std::move(on));
+    }
+    // Action and reaction of a law are one wrench.
+    for (const ElementTrace::Law& law : e.laws) {
+      if (touched.empty()) break;
+      OnBody on = of_law(d, law);
+      on.turns = std::any_of(touched.begin(), touched.end(),
+                             [&](const auto& t) { return bodies_[static_cast<std::size_t>(t.first)].turns(); });
+      bodies[touched.begin()->first].push_back(std::move(on));
     }
     // A coordinate outside bodies belongs to one element, whose reactions balance there.
     if (e.reactions.empty()) {
@@ -119,7 +129,7 @@ void CarriedForces::add(const Directions& d, std::vector<Eigen::RowVectorXd>& ro
   std::map<std::int32_t, std::vector<const OnBody*>> groups;
   for (auto& [b, list] : bodies) {
     for (OnBody& on : list) {
-      see_from_fixed_points(d, b, on);
+      if (!on.is_law) see_from_fixed_points(d, b, on);
       groups[root(b)].push_back(&on);
     }
   }
@@ -134,6 +144,34 @@ void CarriedForces::see_from_fixed_points(const Directions& d, std::int32_t b, O
   if (!on.turns) return;
   const auto moved = d.change[Directions::at(PartialBy::position)].middleRows(block.offset, 3);
   on.change.bottomRows(3) -= cross_matrix(on.load.head<3>()) * moved / length_;
+}
+
+// Each component against what makes it up: one that is soft is seen beside others that are stiff.
+CarriedForces::OnBody CarriedForces::of_law(const Directions& d, const ElementTrace::Law& law) const {
+  OnBody on;
+  on.is_law = true;
+  on.change = Matrix::Zero(6, d.states.cols());
+  on.sums.setZero();
+  const Vector6 unit = (Vector6() << 1, 1, 1, 1 / length_, 1 / length_, 1 / length_).finished();
+  for (const ElementTrace::Law::Partial& p : law.partials) {
+    const Eigen::Map<const Vector6> value(p.value.data());
+    const double size = partials_.size_of(d, {p.family, 0, p.column, 1.0});
+    on.change += unit.cwiseProduct(value) * d.change[Directions::at(p.family)].row(p.column);
+    on.sums += unit.cwiseProduct(value.cwiseAbs()) * size;
+  }
+  const auto vector = [](const Vector& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+  const Eigen::Vector3d f = vector(law.force), t = vector(law.torque) / length_;
+  on.load << f, t;
+  on.place = vector(law.origin);
+  on.axes << vector(law.axes.x), vector(law.axes.y), vector(law.axes.z);
+  const Eigen::Vector3d own_f = (on.axes.transpose() * f).cwiseAbs(), own_t = (on.axes.transpose() * t).cwiseAbs();
+  for (Index a = 0; a < 3; ++a) {  // what turns into it
+    const Index b = (a + 1) % 3, c = (a + 2) % 3;
+    const double across = std::max(own_f(b), own_f(c));
+    on.size(a) = on.sums(a) + across;
+    on.size(3 + a) = on.sums(3 + a) + std::max(own_t(b), own_t(c)) + across;
+  }
+  return on;
 }
 
 // δW − τ × W of all that acts on bodies that elements connect, reactions left out along what their own multipliers
@@ -162,8 +200,15 @@ void CarriedForces::add_group(const std::vector<const OnBody*>& on, const Eigen:
       Matrix Q = columns_of_q(qr, qr.rank());
       left -= Q * Q.transpose();
     }
-    carried.middleRows(6 * e, 6) = left * by_motion / part.size;
-    change.middleRows(6 * e, 6) = left * part.change / part.size;
+    Matrix own = part.change;
+    if (part.is_law) {
+      if (!part.turns) own.bottomRows(3).setZero();
+      by_motion.topRows(3) = part.axes.transpose() * by_motion.topRows(3).eval();
+      by_motion.bottomRows(3) = part.axes.transpose() * by_motion.bottomRows(3).eval();
+    }
+    const Vector6 of_size = part.size.unaryExpr([](double size) { return size > 0 ? 1 / size : 0.0; });
+    carried.middleRows(6 * e, 6) = of_size.asDiagonal() * (left * by_motion);
+    change.middleRows(6 * e, 6) = of_size.asDiagonal() * (left * own);
   }
   // Axes move about as far as bodies do: no load so small that only a long way would explain a change.
   carried.bottomRows(6) = 1e-2 * vanishing * Matrix::Identity(6, 6);

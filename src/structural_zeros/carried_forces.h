@@ -25,6 +25,7 @@ class CarriedForces {
   struct OnBody;
 
   void see_from_fixed_points(const Directions&, std::int32_t body, OnBody&) const;
+  OnBody of_law(const Directions&, const ElementTrace::Law&) const;
   void add_group(const std::vector<const OnBody*>&, const Eigen::Vector3d& origin, Eigen::Index directions,
                  std::vector<Eigen::RowVectorXd>& rows) const;
   Eigen::Vector3d place_of(std::int32_t body) const { return places_[static_cast<std::size_t>(body)]; }

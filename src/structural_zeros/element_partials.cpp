@@ -8,6 +8,7 @@ namespace dynalin {
 ElementPartials::ElementPartials(const System& system, const ElementTrace& trace, bool without_damping)
     : n_(system.layout().coordinate_count), w_(static_cast<std::int32_t>(system.layout().algebraic.size())) {
   std::map<std::int32_t, std::size_t> of_row;  // constraint row -> element
+  auto law = trace.laws.begin();
   for (std::size_t e = 0; e < trace.elements.size(); ++e) {
     const ElementTrace::Element& noted = trace.elements[e];
     ElementContribution* element = nullptr;
@@ -33,6 +34,12 @@ ElementPartials::ElementPartials(const System& system, const ElementTrace& trace
       auto& [load, size] = element->load[trace.loads[k].row];
       load += trace.loads[k].value;
       size += trace.loads[k].size;
+    }
+    for (; law != trace.laws.end() && law->element == e; ++law) {
+      std::erase_if(element->laws.emplace_back(*law).partials, [&](const ElementTrace::Law::Partial& p) {
+        return (without_damping && p.family == PartialBy::damping) ||
+               !std::ranges::all_of(p.value, [](double v) { return std::isfinite(v); });
+      });
     }
   }
 }

@@ -23,6 +23,8 @@ struct ElementContribution {
   std::vector<ElementPartial> partials;
   std::map<std::int32_t, Load> load;    // by row of the balance
   std::vector<std::int32_t> reactions;  // its constraint rows
+  // What tells more than all of these where the element has them (element_trace.h).
+  std::vector<ElementTrace::Law> laws;
 };
 struct Reading {  // one quantity in an algebraic or differential equation
   std::vector<ElementPartial> partials;

@@ -44,6 +44,27 @@ TEST_F(Caution, vibrations_at_the_limit_of_swinging_are_not_overdamped) {
   EXPECT_THAT(run(two, "LINEAR/EIGENSOL\n").err, HasSubstr("2 modes are overdamped"));
 }
 
+// Freedoms that nothing holds take no vibration away from those that are held; nor does one that only a damper holds
+// bring one.
+TEST_F(Caution, overdamped_modes_are_counted_beside_rigid_motion) {
+  const std::string ground = "Slides\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n";
+  const auto cart = [](int k, double z) {
+    return fmt::format(
+        "PART/{0}, MASS=1, CM={0}0, IP=1,1,1, QG=0,0,{1}\nMARKER/{0}0\nJOINT/{0}, TRANSLATIONAL, I={0}0, "
+        "J=1\n",
+        k, z);
+  };
+  const std::string between = "SPRINGDAMPER/2, TRANSLATIONAL, I=30, J=20, K=1, C=4, LENGTH=1\n";
+  const std::string held = "SPRINGDAMPER/1, TRANSLATIONAL, I=20, J=1, K=0.001, LENGTH=1\n";
+  const std::string braked = "SPRINGDAMPER/3, TRANSLATIONAL, I=40, J=1, K=0, C=1, LENGTH=3\n";
+  for (const std::string& more : {std::string(), held, cart(4, 3), cart(4, 3) + braked, held + cart(4, 3) + cart(5, 4)})
+    EXPECT_THAT(run(ground + cart(2, 1) + cart(3, 2) + between + more + "END\n", "LINEAR/EIGENSOL\n").err,
+                HasSubstr("1 mode is overdamped"))
+        << more;
+  EXPECT_THAT(run(ground + cart(4, 3) + braked + cart(2, 1) + "END\n", "LINEAR/EIGENSOL\n").err,
+              Not(HasSubstr("overdamped")));
+}
+
 // A controller that moves the carriage has real modes, and without damping there is no vibration behind them.
 TEST_F(Caution, controllers_are_no_overdamped_modes) {
   std::string controlled = slide(100, 1);

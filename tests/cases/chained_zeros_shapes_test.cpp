@@ -1,6 +1,7 @@
 // Modes beside zeros in long chains: what the zeros would be amplified into is not handed out as a shape.
 #include <gmock/gmock.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "cases/dataset_text.h"
@@ -44,6 +45,31 @@ TEST_F(ChainedZeros, integrators_beside_a_chain_stand_still_in_its_modes) {
       ++looked_at;
     }
     EXPECT_GE(looked_at, 3u);
+  }
+}
+
+// What chains end with is not all that is null: a combination of links may be, where two chains end alike.
+TEST_F(ChainedZeros, vectors_of_zeros_span_all_that_is_null) {
+  const char* const diffs =
+      "Integrators\nPART/1, GROUND\nDIFF/1, FUNCTION=0\nDIFF/2, FUNCTION=0\nDIFF/3, FUNCTION=DIF(1)+DIF(2)\nEND\n";
+  const char* const carts =
+      "Carts\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/2, TRANSLATIONAL, I=20, "
+      "J=1\nPART/3, MASS=1, CM=30, IP=1,1,1\nMARKER/30\nJOINT/3, TRANSLATIONAL, I=30, J=1\n"
+      "DIFF/1, FUNCTION=DZ(20,1)+DZ(30,1)\nEND\n";
+  for (const auto& [text, zeros, independent] : {std::tuple(diffs, 3u, 2), std::tuple(carts, 5u, 2)}) {
+    const RunResult r = run(text, "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto& modes = r.result(0).at("modes");
+    ASSERT_EQ(modes.size(), zeros);
+    Eigen::MatrixXd vectors(zeros, zeros);
+    for (Eigen::Index c = 0; c < vectors.cols(); ++c) {
+      const auto& mode = modes[static_cast<std::size_t>(c)];
+      EXPECT_TRUE(mode.at("structural_zero").get<bool>());
+      EXPECT_EQ(mode.at("backward_error").get<double>(), 0);
+      for (Eigen::Index k = 0; k < vectors.rows(); ++k)
+        vectors(k, c) = mode.at("vector")[static_cast<std::size_t>(k)][0].get<double>();
+    }
+    EXPECT_EQ(Eigen::FullPivLU<Eigen::MatrixXd>(vectors).rank(), independent) << vectors;
   }
 }
 

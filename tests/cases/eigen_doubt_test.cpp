@@ -87,5 +87,71 @@ TEST_F(EigenDoubt, equal_parts_keep_their_frequencies_beside_a_defective_value) 
   }
 }
 
+// What is a double value each stays one, however far the bound of a group would reach if it were joined with another.
+TEST_F(EigenDoubt, defective_values_that_lie_apart_are_not_joined) {
+  const char* const filters =
+      "Filters\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\nJOINT/1, TRANSLATIONAL, I=20, "
+      "J=1\nSFORCE/1, TRANSLATIONAL, ACTIONONLY, I=20, J=1, FUNCTION=-25*DZ(20,1)-10*VZ(20,1)\n"
+      "DIFF/1, FUNCTION=-1*DIF(1)+DZ(20,1)\nDIFF/2, FUNCTION=-1*DIF(2)+DIF(1)\nEND\n";
+  const auto states = [](int n, const std::string& values) {
+    return fmt::format(
+        "States\nPART/1, GROUND\nMATRIX/1, FULL=RORDER, ROWS={0}, COLUMNS={0}, VALUES={1}\n"
+        "LSE/1, X=1, A=1\nARRAY/1, X\nEND\n",
+        n, values);
+  };
+  const std::string integers = states(4, "1,1,0,1\n, -1,-1,0,0\n, 4,2,-1,3\n, 0,0,0,-1");
+  const std::string three = states(6,
+                                   "-1,1,0,1,0,2\n, 0,-1,1,0,3,0\n, 0,0,-1,1,0,1\n, 0,0,0,-2,1,0\n, 0,0,0,0,-5,1\n, "
+                                   "0,0,0,0,0,-5");
+  using Values = std::vector<std::pair<double, int>>;
+  for (const auto& [text, exact] : {std::pair<std::string, Values>(filters, {{-1, 2}, {-5, 2}}),
+                                    std::pair<std::string, Values>(integers, {{0, 2}, {-1, 2}}),
+                                    std::pair<std::string, Values>(three, {{-1, 3}, {-2, 1}, {-5, 2}})}) {
+    const RunResult r = run(text, "LINEAR/EIGENSOL\n");
+    ASSERT_EQ(r.status, 0) << r.err;
+    for (const auto& [value, times] : exact) {
+      EXPECT_EQ(std::ranges::count_if(r.result(0).at("modes"),
+                                      [&, hz = value / (2 * 3.14159265358979323846)](const nlohmann::json& m) {
+                                        const double bound = m.at("error_bound_hz").get<double>();
+                                        return std::abs(m.at("real_hz").get<double>() - hz) <= bound && bound < 1e-3;
+                                      }),
+                times)
+          << value << "\n"
+          << r.out;
+    }
+  }
+}
+
+// Also where there are too many states for long double: of 151 slides that do not touch one is critically damped.
+TEST_F(EigenDoubt, a_defective_value_takes_no_bound_from_others_in_large_models) {
+  std::string text = "Slides\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\n";
+  for (int k = 0; k < 151; ++k) {
+    text += fmt::format(
+        "PART/{0}, MASS=1, CM={0}, IP=1,1,1, QG={1},0,0\nMARKER/{0}\nMARKER/{2}, PART=1, QP={1},0,0\n"
+        "JOINT/{0}, TRANSLATIONAL, I={0}, J={2}\nSFORCE/{0}, TRANSLATIONAL, ACTIONONLY, I={0}, J={2}, "
+        "FUNCTION=-{3}*DZ({0},{2}){4}\n",
+        100 + k, k, 1000 + k, k == 0 ? 4.0 : (2.9 + 0.1 * k) * (2.9 + 0.1 * k), k == 0 ? "-4*VZ(100,1000)" : "");
+  }
+  const RunResult r = run(text + "END\n", "LINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.err.find("overdamped"), std::string::npos) << r.err;
+  const auto& modes = r.result(0).at("modes");
+  ASSERT_EQ(modes.size(), 152u);
+  constexpr double cycle = 2 * 3.14159265358979323846;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    ASSERT_FALSE(modes[k].at("error_bound_hz").is_null()) << k;
+    const double bound = modes[k].at("error_bound_hz").get<double>();
+    if (k < 2) {
+      EXPECT_LE(std::abs(modes[k].at("real_hz").get<double>() + 2 / cycle), bound);
+      EXPECT_LT(bound, 1e-6);
+      EXPECT_EQ(modes[k].at("cluster_size").get<int>(), 2);
+    } else {
+      EXPECT_LE(std::abs(modes[k].at("imag_hz").get<double>() - (2.9 + 0.1 * static_cast<double>(k - 1)) / cycle),
+                bound + 1e-15);
+      EXPECT_LT(bound, 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dynalin::cases::eigen_doubt_test

@@ -96,6 +96,45 @@ TEST_F(StructuralZeros, a_soft_spring_beside_a_stiff_one_is_none) {
 }
 
 // Both slides move alike, and nothing holds them; what lies between stiff and soft springs does not spoil that.
+// The same with both directions in one element, along the axes of the ground or not: 14 digits are between them.
+TEST_F(StructuralZeros, a_soft_direction_beside_a_stiff_one_of_the_same_element_is_none) {
+  const char* const field =
+      "FIELD/1, I=2, J=1, KMATRIX=1E14,0,0,0,0,0\n, 0,0.5,0,0,0,0\n, 0,0,2,0,0,0\n, 0,0,0,0,0,0\n, 0,0,0,0,0,0\n, "
+      "0,0,0,0,0,0\n";
+  for (const char* const force : {"BUSHING/1, I=2, J=1, K=1E14,0.5,2\n", field}) {
+    for (const char* const axes : {"", ", REULER=0.3,0.7,0.4"}) {
+      for (const char* const beside : {"", "POINT_MASS/9, MASS=1, CM=99, QG=5,0,0\nMARKER/99\n"}) {
+        const auto modes =
+            solve(fmt::format("Mount\nPART/1, GROUND\nMARKER/1{0}\nPOINT_MASS/2, MASS=1, CM=20\n"
+                              "MARKER/20\nMARKER/2\n{1}{2}END\n",
+                              axes, force, beside));
+        EXPECT_EQ(zeros(modes), *beside ? 6u : 0u) << force << axes;
+        // Turned axes leave of the soft direction what their rounding of the stiff one does.
+        for (const double soft : {std::sqrt(0.5), std::sqrt(2.0)}) {
+          EXPECT_TRUE(std::ranges::any_of(modes,
+                                          [&](const Mode& m) {
+                                            return std::abs(m.value - std::complex<double>(0, soft)) <= m.bound &&
+                                                   (*axes || m.bound < 0.5 * soft);
+                                          }))
+              << soft << force << axes;
+        }
+      }
+    }
+  }
+}
+
+// A bushing that is the same all round lets its own axes spin, whatever it bears and however stiff it is along them.
+TEST_F(StructuralZeros, a_loaded_bushing_that_is_the_same_all_round_lets_its_axes_spin) {
+  for (const char* const axes : {"", ", REULER=0.3,0.7,0.4"}) {
+    const auto modes =
+        solve(fmt::format("Rotor\nPART/1, GROUND\nMARKER/1{0}\nPART/2, MASS=1, CM=20, IP=1,1,1, QG=0.002,0.001,0\n"
+                          "MARKER/20\nMARKER/2{0}\nBUSHING/1, I=1, J=2, K=500,500,4E13, KT=50,50,0\n"
+                          "END\n",
+                          axes));
+    EXPECT_EQ(zeros(modes), 2u) << axes;
+  }
+}
+
 TEST_F(StructuralZeros, what_nothing_holds_has_two_whatever_holds_it_together) {
   for (const std::vector<double>& k : {std::vector<double>{0, 1e12, 1e-2, 3}, std::vector<double>{0, 1, 1e-9, 1e9},
                                        std::vector<double>{0, 1e-3, 2e-3}}) {

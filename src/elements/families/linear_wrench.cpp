@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "elements/families/common_frame.h"
@@ -128,13 +129,21 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   }
 }
 
-PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, const Motion& motion, Partials wanted) {
+LinearWrenchKernel::Given LinearWrenchKernel::law_of(const Placed& p, const PairMotion& pair, const Motion& motion,
+                                                     Partials wanted) {
+  constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
   const RelativeDisplacement d = relative_displacement(pair, p.angles);
-  RelativeWrench w;
+  // What displacements are differences of.
+  const double far = norm(motion.body(pair.body_I).r) + norm(motion.body(pair.body_J).r) + norm(value(pair.arm_I)) +
+                     norm(value(pair.arm_J));
+  Given given{};
+  RelativeWrench& w = given.wrench;
   w.depends_on_rate = true;
   Array6 load = p.law->force;
   for (const auto& [r, c, K, C] : p.law->couplings) {
     load[r] -= K * (d.y[c] - p.law->length[c]) + C * d.rate[c];
+    given.rounding[r] +=
+        units_of_rounding * std::abs(K) * (std::abs(d.y[c]) + std::abs(p.law->length[c]) + (c < 3 ? far : 1.0));
     for (std::size_t k = 0; k < 6; ++k) {
       w.on_pose[r][k] -= K * d.on_pose[c][k] + C * d.rate_on_pose[c][k];
       w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
@@ -143,7 +152,7 @@ PairForce LinearWrenchKernel::force_of(const Placed& p, const PairMotion& pair, 
   if (p.law->routine) add_routine(*p.law, d, motion, wanted, load, w);
   w.force = {load[0], load[1], load[2]};
   w.torque = {load[3], load[4], load[5]};
-  return spread(pair, w, wanted);
+  return given;
 }
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
@@ -151,13 +160,15 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
     const Placed& p = laws_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    apply(pair, force_of(p, pair, motion, eq.wanted_partials()), eq);
+    const auto [law, rounding] = law_of(p, pair, motion, eq.wanted_partials());
+    note_law(pair, law, rounding, eq);
+    apply(pair, spread(pair, law, eq.wanted_partials()), eq);
   }
 }
 
 void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
-  out.force = force_of(laws_[k], out.pair, motion, wanted);
+  out.force = spread(out.pair, law_of(laws_[k], out.pair, motion, wanted).wrench, wanted);
 }
 
 void LinearWrenchKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {

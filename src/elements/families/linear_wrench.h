@@ -72,7 +72,11 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
     CountedAngles angles;
   };
-  static PairForce force_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
+  struct Given {
+    RelativeWrench wrench;
+    Array6 rounding;  // of forces and torques
+  };
+  static Given law_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
   std::vector<Placed> laws_;
   const std::vector<ElementLabel>* labels_;
 };
