@@ -295,6 +295,26 @@ TEST_F(EditCommands, what_goes_with_the_type_before_is_named) {
   EXPECT_EQ(r.err.find("dropped-argument"), r.err.rfind("dropped-argument")) << r.err;
 }
 
+// Of a table of arguments that all types have in common, too.
+TEST_F(EditCommands, what_goes_with_the_type_of_a_joint_goes_with_it) {
+  const auto said_of = [&](const std::string& joint, const std::string& edit) {
+    const RunResult r =
+        run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2\n"
+            "BUSHING/1, I=2, J=1, K=1,1,1, KT=1,1,1\nJOINT/1, " +
+                joint + ", I=2, J=1\nEND\n",
+            edit + "\nLINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said_of("REVOLUTE, IC=.2,.4", "JOINT/1, CYLINDRICAL"),
+              HasSubstr("IC of JOINT/1 is dropped with its type: CYLINDRICAL has no such argument"));
+  EXPECT_THAT(said_of("CYLINDRICAL, ICTRAN=.1, ICROT=.2,.4", "JOINT/1, TRANSLATIONAL, IC=.3"),
+              HasSubstr("ICTRAN, ICROT of JOINT/1 are dropped"));
+  EXPECT_THAT(said_of("SCREW, PITCH=.1", "JOINT/1, REVOLUTE"), HasSubstr("PITCH of JOINT/1 is dropped"));
+  EXPECT_THAT(said_of("SCREW, PITCH=.1", "JOINT/1, CYLINDRICAL, ICROT=.2"), HasSubstr("PITCH of JOINT/1 is dropped"));
+  EXPECT_EQ(said_of("REVOLUTE, IC=.2,.4", "JOINT/1, TRANSLATIONAL").find("dropped"), std::string::npos);
+}
+
 TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {
   const RunResult r =
       run(oscillator + "JOINT/2, FIXED, I=20, J=1\nJPRIM/1, INPLANE, I=20, J=3\nMARKER/4, PART=1\nEND\n",
