@@ -315,6 +315,25 @@ TEST_F(EditCommands, what_goes_with_the_type_of_a_joint_goes_with_it) {
   EXPECT_EQ(said_of("REVOLUTE, IC=.2,.4", "JOINT/1, TRANSLATIONAL").find("dropped"), std::string::npos);
 }
 
+// They leave the model and its point as they are, to the last bit.
+TEST_F(EditCommands, edits_that_change_nothing_are_as_if_nothing_had_been_said) {
+  const std::string swinging =
+      "two\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=.3,.4,.5, "
+      "QG=.7,.1,.2, REULER=.3,.2,.1\nMARKER/20\nMARKER/21, QP=-.7,-.1,-.2\nMARKER/22, QP=.4,.1,0\nPART/3, MASS=2, "
+      "CM=30, IP=.3,.4,.5, QG=1.4,.1,.4, REULER=1.3,.4,.1\nMARKER/30\nMARKER/31, QP=-.4,.1,0\nJOINT/1, SPHERICAL, "
+      "I=21, J=1\nJOINT/2, SPHERICAL, I=31, J=22\nBUSHING/1, I=30, J=1, K=1,1,1, C=.1,.1,.1\nEND\n";
+  const auto end = [&](const std::string& between) {
+    const RunResult r = run(swinging, "SIMULATE/DYNAMICS, END=.3\n" + between + "SIMULATE/DYNAMICS, END=.6\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.json.at("results").back().at("operating_point").dump();
+  };
+  const std::string wanted = end("TIME\n");
+  EXPECT_EQ(end("BUSHING/1, C=.1,.1,.1, K=1,1,1\n"), wanted);
+  EXPECT_EQ(end("DEACTIVATE/JOINT, ID=2\nACTIVATE/JOINT, ID=2\n"), wanted);
+  EXPECT_EQ(end("BUSHING/1, K=2,1,1\nBUSHING/1, K=1,1,1\nTIME\n"), wanted);
+  EXPECT_NE(end("BUSHING/1, K=2,1,1\n"), wanted);
+}
+
 TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {
   const RunResult r =
       run(oscillator + "JOINT/2, FIXED, I=20, J=1\nJPRIM/1, INPLANE, I=20, J=3\nMARKER/4, PART=1\nEND\n",
