@@ -89,7 +89,9 @@ DatasetEditor::DatasetEditor(std::shared_ptr<const Dataset> base, std::shared_pt
     const auto at = place_.try_emplace(key(s.name, finder_.identity_of(s)), k).first;
     if (is_setting(s.name)) at->second = k;  // of several the last decides
   }
-  out_->origins = {base_, std::move(written)};
+  // What is a copy itself holds no tokens: whatever its statements point into is among its own origins.
+  out_->origins = base_->origins.empty() ? std::vector{base_} : base_->origins;
+  if (out_->origins.back() != written) out_->origins.push_back(std::move(written));
 }
 
 std::optional<std::size_t> DatasetEditor::place_of(std::string_view statement, std::int64_t id) const {
@@ -122,7 +124,22 @@ EditedDataset DatasetEditor::finish() && {
   const bool same = restated_.empty() && out_->statements.size() == base_->statements.size() &&
                     std::ranges::all_of(touched_, [&](std::size_t place) { return is_as_before(place); });
   if (same) return {base_, {}};
+  drop_origins();
   return {std::move(out_), std::move(restated_)};
+}
+
+// Texts of earlier edits that nothing is left of.
+void DatasetEditor::drop_origins() {
+  std::set<const SourceText*> used;
+  const SourceText* last = nullptr;
+  const auto use = [&](const SourceText* text) {
+    if (std::exchange(last, text) != text) used.insert(text);
+  };
+  for (const Statement& s : out_->statements) {
+    use(s.at.source);
+    for (const WrittenArgument& w : s.arguments) use(w.name.source);
+  }
+  std::erase_if(out_->origins, [&](const auto& origin) { return !used.contains(origin->source.get()); });
 }
 
 const Kind* DatasetEditor::kind_of(const Statement& s) const {

@@ -46,6 +46,7 @@ class DatasetEditor {
   void switch_one(Statement&, bool inactive, const Span& at);
 
   bool is_as_before(std::size_t place) const;
+  void drop_origins();
 
   KindFinder finder_;
   std::shared_ptr<const Dataset> base_;

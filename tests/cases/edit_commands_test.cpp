@@ -1,10 +1,12 @@
 // Commands that change the model between analyses: redefinition, ACTIVATE and DEACTIVATE.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cases/run.h"
+#include "command/planner.h"
 
 namespace dynalin::cases::edit_commands_test {
 namespace {
@@ -332,6 +334,27 @@ TEST_F(EditCommands, edits_that_change_nothing_are_as_if_nothing_had_been_said) 
   EXPECT_EQ(end("DEACTIVATE/JOINT, ID=2\nACTIVATE/JOINT, ID=2\n"), wanted);
   EXPECT_EQ(end("BUSHING/1, K=2,1,1\nBUSHING/1, K=1,1,1\nTIME\n"), wanted);
   EXPECT_NE(end("BUSHING/1, K=2,1,1\n"), wanted);
+}
+
+// More edits one by one than models are kept for.
+TEST_F(EditCommands, each_of_many_edits_counts_in_its_turn) {
+  std::string commands;
+  for (int k = 1; k <= 30; ++k) commands += "SPRINGDAMPER/1, K=" + std::to_string(2 * k * k) + "\nLINEAR/EIGENSOL\n";
+  SessionOptions options;
+  write("model.adm", oscillator + "END\n");
+  write("model.acf", "model\nmodel\n" + commands);
+  options.file = (folder_ / "model.acf").string();
+  std::ostringstream said;
+  const auto plan = planned(options, said);
+  ASSERT_TRUE(plan) << said.str();
+  const auto& stages = plan->jobs.front().stages;
+  EXPECT_EQ(stages.size(), 31u);
+  EXPECT_LT(std::ranges::count_if(stages, [](const Job::Stage& s) { return s.is_there(); }), 15);
+  EXPECT_TRUE(stages.back().is_there());
+
+  const RunResult r = run_file("model.acf");
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (std::size_t k = 1; k <= 30; ++k) expect_frequency(r, 2 * k - 1, static_cast<double>(k));
 }
 
 TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {
