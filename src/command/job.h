@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_chain.h"
 #include "command/commands.h"
 #include "command/session.h"
 #include "study/model_source.h"
@@ -16,8 +17,13 @@ struct Job {
   // The models of the job in order: that of the dataset, then one more for each group of commands that edit it, and
   // those that RELOAD/SYSTEM brings. Empty as long as the first of them is in a file that the run has yet to write.
   struct Stage : MadeModel {
-    std::vector<std::string> edits;  // all commands that have changed the dataset, as written
+    SharedChain<std::string> edits;  // all commands that have changed the dataset, as written
     bool anew = false;               // nothing of the stage before goes on in it
+
+    // A model that was made to check commands against it, or that the run has left behind, is let go. Its commands make
+    // it again of the stage before.
+    bool is_there() const { return system != nullptr; }
+    void let_go() { static_cast<MadeModel&>(*this) = {}; }
   };
   std::vector<Stage> stages;
   const Model& model() const { return *stages.front().model; }

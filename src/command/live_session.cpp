@@ -106,13 +106,29 @@ bool LiveSession::begin_job() {
 }
 
 // The model that a command works with; what is known of the one before goes on by class and id.
-void LiveSession::enter_stage(std::size_t stage) {
-  if (stage == run_->stage) return;
-  const Job::Stage& next = run_->job.stages[stage];
+bool LiveSession::enter_stage_of(std::size_t command) {
+  Job& job = plan_.jobs[job_];
+  const std::size_t stage = job.commands[command].stage;
+  if (stage == run_->stage) return true;
+  if (!job.stages[stage].is_there()) {
+    plan_.diagnostics = {};
+    if (!plan_.make_again(job, command)) return refuse("the model cannot be made again: its files have changed");
+  }
+  const Job::Stage& next = job.stages[stage];
   const Diagnostics said = run_->system().layout().remarks;
-  run_->stage = stage;
+  const std::size_t left = std::exchange(run_->stage, stage);
   run_->point = next.anew ? as_drawn(next.system) : continued(run_->point, next.system, next.restated);
   run_->remarks.say(new_remarks(next.system->layout().remarks, said));
+  if (left > 0) job.stages[left].let_go();  // the first is the model of the job
+  return true;
+}
+
+bool LiveSession::refuse(const char* why) {
+  const std::string wrong = render(plan_.diagnostics);
+  err_ << wrong;
+  write_block(run_->message, Block::error, wrong);
+  json_.add_failure(run_->command, why, {wrong});
+  return false;
 }
 
 // A command whose model was not known when the run was planned.
@@ -123,11 +139,7 @@ bool LiveSession::prepare(std::size_t k) {
     run_->remarks.say(plan_.diagnostics);
     return true;
   }
-  const std::string wrong = render(plan_.diagnostics);
-  err_ << wrong;
-  write_block(run_->message, Block::error, wrong);
-  json_.add_failure(run_->command, "the command does not go with the model that was reloaded", {wrong});
-  return false;
+  return refuse("the command does not go with the model that was reloaded");
 }
 
 bool LiveSession::execute(std::size_t k) {
@@ -139,7 +151,7 @@ bool LiveSession::execute(std::size_t k) {
   begin(plan_.jobs[job_].commands[k]);
   if (plan_.jobs[job_].commands[k].stage == Command::known_when_run && !prepare(k)) return false;
   const Command& c = plan_.jobs[job_].commands[k];
-  enter_stage(c.stage);
+  if (!enter_stage_of(k)) return false;
   if (c.action->sets()) run_->settings_done.push_back(c);
   const auto result = c.action->run(*run_);
   if (result) return true;

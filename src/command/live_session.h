@@ -38,7 +38,8 @@ class LiveSession {
   RunFiles::Result add_growing_files();
   bool execute(std::size_t command);
   bool prepare(std::size_t command);
-  void enter_stage(std::size_t stage);
+  bool enter_stage_of(std::size_t command);
+  bool refuse(const char* why);
   bool goes_on_after_failure() const;
   void tell_of_files(const std::vector<std::string>&) const;
 

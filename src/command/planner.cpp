@@ -134,6 +134,31 @@ bool Planner::finish_stage(Job& of, std::optional<Job::Stage> stage) {
   return true;
 }
 
+// Of many models only those wait for the run that it comes to first. At a prompt the run has come to all of them.
+void Planner::let_go_of_one_before_last(Job& of) const {
+  constexpr std::size_t most_waiting = 8;
+  if (takes_back_ || of.stages.size() < most_waiting + 2) return;
+  Job::Stage& stage = of.stages[of.stages.size() - 2];
+  if (!stage.anew) stage.let_go();
+}
+
+bool Planner::make_again(Job& of, std::size_t first) {
+  const std::size_t stage = of.commands[first].stage;
+  std::size_t last = first;
+  while (last < of.commands.size() && of.commands[last].action->edits() && of.commands[last].stage == stage) ++last;
+  std::vector<SourceRef> read;
+  Diagnostics said;  // when it was made first
+  auto made =
+      edited_stage(of.stages[stage - 1], std::span(of.commands).subspan(first, last - first), options_, read, said);
+  if (!made) {
+    texts.insert(texts.end(), read.begin(), read.end());
+    diagnostics.append(std::move(said));
+    return false;
+  }
+  of.stages[stage] = std::move(*made);
+  return true;
+}
+
 void Planner::open(const Opening& o) {
   finish_edits();
   std::string why;
@@ -171,7 +196,10 @@ void Planner::finish_edits() {
   std::size_t stage = Command::known_when_run;
   if (known() && sound_) {
     auto made = edited_stage(job().stages.back(), edits, options_, texts, diagnostics);
-    if (finish_stage(job(), std::move(made))) stage = job().stages.size() - 1;
+    if (finish_stage(job(), std::move(made))) {
+      stage = job().stages.size() - 1;
+      let_go_of_one_before_last(job());
+    }
   }
   for (Command& c : edits) {
     c.stage = stage;
@@ -209,7 +237,9 @@ void Planner::add(Command c) {
   }
   if (known()) {
     c.stage = job().stages.size() - 1;
+    const std::size_t said = diagnostics.items().size();
     if (sound_) c.action->check(*job().stages.back().model, c.place(), diagnostics);
+    if (diagnostics.items().size() > said) keep_texts(job().stages.back(), texts);
   }
   job().commands.push_back(std::move(c));
 }
@@ -323,7 +353,8 @@ bool Planner::resolve(Job& of, std::size_t first, std::optional<std::size_t> sta
   return ok();
 }
 
-Planner::Mark Planner::mark() const {
+Planner::Mark Planner::mark() {
+  takes_back_ = true;
   if (jobs.empty()) return {0, 0, 0};
   return {jobs.size(), jobs.back().stages.size(), jobs.back().commands.size()};
 }

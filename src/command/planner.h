@@ -54,11 +54,14 @@ class Planner {
   InputFiles inputs;             // all that was read
   bool only_a_dataset = false;   // is named for the run, and no command file
 
+  // The model of a stage that was let go, of the stage before and the edits from this command on.
+  bool make_again(Job&, std::size_t first);
+
   // To take back what a command at a prompt has led to when it turns out to be wrong.
   struct Mark {
     std::size_t jobs, stages, commands;
   };
-  Mark mark() const;
+  Mark mark();
   void back_to(const Mark&);
 
  private:
@@ -68,6 +71,7 @@ class Planner {
   bool load(Command&);  // what RELOAD names
   void begin_job(std::string prefix, std::string folder);
   bool finish_stage(Job&, std::optional<Job::Stage>);
+  void let_go_of_one_before_last(Job&) const;
   void read_inputs(Command&);
   bool known() const { return known_ && !jobs.empty() && !jobs.back().stages.empty(); }
   Job& job() { return jobs.back(); }
@@ -77,6 +81,7 @@ class Planner {
   bool known_ = true;                  // the model that the next command meets
   bool sound_ = true;                  // and no error has kept it from being made
   bool missed_ = false;                // that no model is named has been said
+  bool takes_back_ = false;            // what follows may turn out to be wrong, and then the models before it count
   std::vector<Command> edits_;         // that wait
   std::vector<Command> early_;         // that wait for a model
   std::vector<std::string> opening_;   // commands before one

@@ -9,20 +9,20 @@
 
 namespace dynalin {
 
-namespace {
-
 void keep_texts(const Job::Stage& stage, std::vector<SourceRef>& texts) {
   texts.insert(texts.end(), stage.model->further_sources.begin(), stage.model->further_sources.end());
 }
+
+namespace {
 
 // The model after some edits, and all that is wrong with them and with it.
 Parsed<Job::Stage> after(const Job::Stage& from, std::span<const Command> edits, const SessionOptions& options) {
   Parsed<EditedDataset> edit;
   DatasetEditor editor(from.dataset, edits.front().written, catalogue(), edit.diagnostics);
-  std::vector<std::string> written = from.edits;
+  SharedChain<std::string> written = from.edits;
   for (const Command& c : edits) {
     c.action->edit(editor);
-    written.emplace_back(c.whole.text());
+    written.add(std::string(c.whole.text()));
   }
   edit.value = std::move(editor).finish();
   auto made = edited_model(from, std::move(edit), model_options(options));
@@ -72,7 +72,7 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
                                        const SessionOptions& options, std::vector<SourceRef>& texts,
                                        Diagnostics& diagnostics) {
   auto edited = after(from, edits, options);
-  keep_texts(edited.value, texts);
+  if (!edited.diagnostics.items().empty()) keep_texts(edited.value, texts);
   if (!edited.diagnostics.has_errors()) {
     diagnostics.append(std::move(edited.diagnostics));
     return std::move(edited.value);
@@ -91,7 +91,7 @@ std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const C
 }
 
 std::string fingerprint_of(const Job::Stage& stage) {
-  return fingerprint_of(*stage.model, stage.dataset->source->text(), stage.edits);
+  return fingerprint_of(*stage.model, stage.dataset->source->text(), stage.edits.list());
 }
 
 std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::string& name,
@@ -116,7 +116,8 @@ std::optional<Job::Stage> saved_stage(const SavedFile::Model& saved, const std::
     if (!readable) diagnostics.append(std::move(parsed.diagnostics));
     stage = readable ? edited_stage(*stage, parsed.value.commands, options, texts, diagnostics) : std::nullopt;
     if (!stage) return std::nullopt;
-    stage->edits = saved.edits;
+    stage->edits = {};
+    for (const std::string& edit : saved.edits) stage->edits.add(edit);
   }
   for (const auto& [file, contents] : files_of(*stage->model)) {
     for (const auto& known : saved.further) {

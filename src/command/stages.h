@@ -15,6 +15,8 @@ ModelOptions model_options(const SessionOptions&);
 // `texts` keeps the files that were read for the model, which messages point into even where there is none.
 std::optional<Job::Stage> stage_of_dataset(SourceRef, const SessionOptions&, Statements, std::vector<SourceRef>& texts,
                                            Diagnostics&);
+// The files that the model of a stage has read, which messages may point into when it is gone.
+void keep_texts(const Job::Stage&, std::vector<SourceRef>& texts);
 // Neighbouring commands make one model together, whose statements point into theirs: the commands have to outlive it.
 std::optional<Job::Stage> edited_stage(const Job::Stage& from, std::span<const Command> edits, const SessionOptions&,
                                        std::vector<SourceRef>& texts, Diagnostics&);

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "base/enumeration.h"
 #include "dataset/word_list.h"
@@ -66,26 +69,77 @@ void end(Statement& target, std::size_t before, const Kind* kind, const Wanted& 
   }
 }
 
+std::string text_of(const WrittenArgument& w) {
+  std::string text;
+  for (const Token& t : w.value()) text += fmt::format("{} ", Span{w.name.source, t.offset, t.length}.text());
+  return text;
+}
+
 }  // namespace
 
 DatasetEditor::DatasetEditor(std::shared_ptr<const Dataset> base, std::shared_ptr<const Dataset> written,
                              Catalogue catalogue, Diagnostics& diagnostics)
-    : finder_(catalogue), out_(std::make_shared<Dataset>()), diagnostics_(diagnostics) {
-  out_->source = base->source;
-  out_->title = base->title;
-  out_->statements = base->statements;
-  for (std::size_t k = 0; k < base->statements.size(); ++k) {
-    const Statement& s = base->statements[k];
+    : finder_(catalogue), base_(std::move(base)), out_(std::make_shared<Dataset>()), diagnostics_(diagnostics) {
+  out_->source = base_->source;
+  out_->title = base_->title;
+  out_->statements = base_->statements;
+  for (std::size_t k = 0; k < base_->statements.size(); ++k) {
+    const Statement& s = base_->statements[k];
     if (s.name.empty()) continue;
     const auto at = place_.try_emplace(key(s.name, finder_.identity_of(s)), k).first;
     if (is_setting(s.name)) at->second = k;  // of several the last decides
   }
-  out_->origins = {std::move(base), std::move(written)};
+  // What is a copy itself holds no tokens: whatever its statements point into is among its own origins.
+  out_->origins = base_->origins.empty() ? std::vector{base_} : base_->origins;
+  if (out_->origins.back() != written) out_->origins.push_back(std::move(written));
 }
 
-Statement* DatasetEditor::find(std::string_view statement, std::int64_t id) {
+std::optional<std::size_t> DatasetEditor::place_of(std::string_view statement, std::int64_t id) const {
   const auto it = place_.find(key(statement, id));
-  return it == place_.end() ? nullptr : &out_->statements[it->second];
+  return it == place_.end() ? std::nullopt : std::optional(it->second);
+}
+
+Statement& DatasetEditor::changed(std::size_t place) {
+  touched_.insert(place);
+  return out_->statements[place];
+}
+
+// The same arguments with the same values, in whatever order.
+bool DatasetEditor::is_as_before(std::size_t place) const {
+  const Statement &was = base_->statements[place], &is = out_->statements[place];
+  if (was.inactive != is.inactive || was.damaged || is.damaged) return false;
+  using Entry = std::tuple<std::string, bool, std::string>;
+  const auto sorted = [&](const Statement& s) {
+    const Kind* kind = kind_of(s);
+    std::vector<Entry> entries;
+    for (const WrittenArgument& w : s.arguments)
+      entries.emplace_back(full_name(kind, w.name.text()), w.has_value, text_of(w));
+    std::ranges::stable_sort(entries, {}, [](const Entry& e) { return std::get<0>(e); });
+    return entries;
+  };
+  return sorted(was) == sorted(is);
+}
+
+EditedDataset DatasetEditor::finish() && {
+  const bool same = restated_.empty() && out_->statements.size() == base_->statements.size() &&
+                    std::ranges::all_of(touched_, [&](std::size_t place) { return is_as_before(place); });
+  if (same) return {base_, {}};
+  drop_origins();
+  return {std::move(out_), std::move(restated_)};
+}
+
+// Texts of earlier edits that nothing is left of.
+void DatasetEditor::drop_origins() {
+  std::set<const SourceText*> used;
+  const SourceText* last = nullptr;
+  const auto use = [&](const SourceText* text) {
+    if (std::exchange(last, text) != text) used.insert(text);
+  };
+  for (const Statement& s : out_->statements) {
+    use(s.at.source);
+    for (const WrittenArgument& w : s.arguments) use(w.name.source);
+  }
+  std::erase_if(out_->origins, [&](const auto& origin) { return !used.contains(origin->source.get()); });
 }
 
 const Kind* DatasetEditor::kind_of(const Statement& s) const {
@@ -106,7 +160,7 @@ void DatasetEditor::redefine(const Statement& command) {
       diagnostics_.error("missing-id", command.at, fmt::format("{} needs an id: {}/1", command.name, command.name));
     return;
   }
-  Statement* target = find(command.name, finder_.identity_of(command));
+  const auto target = place_of(command.name, finder_.identity_of(command));
   if (!target && without_id) {
     Statement& added = out_->statements.emplace_back(command);
     added.arguments.erase_if([&](const WrittenArgument& w) { return !w.has_value && is_list(w, kind_of(command)); });
@@ -118,7 +172,7 @@ void DatasetEditor::redefine(const Statement& command) {
                        "a command changes what the dataset defines");
     return;
   }
-  merge(*target, command);
+  merge(changed(*target), command);
 }
 
 void DatasetEditor::merge(Statement& target, const Statement& command) {
@@ -234,8 +288,8 @@ void DatasetEditor::switch_elements(const Statement& command, bool inactive, Nam
   const auto list = read_integers(*ids, *ids->name.source, diagnostics_);
   if (!list) return;
   for (const WrittenInteger& id : *list) {
-    if (Statement* s = find(statement, id.value)) {
-      switch_one(*s, inactive, id.at);
+    if (const auto place = place_of(statement, id.value)) {
+      switch_one(changed(*place), inactive, id.at);
     } else {
       diagnostics_.error("unknown-element", id.at, fmt::format("{} does not exist", key(statement, id.value)));
     }
@@ -257,17 +311,18 @@ void DatasetEditor::switch_range(const WrittenArgument& range, std::string_view 
   }
   const std::int64_t first = ends->front().value, last = ends->back().value;
   bool any = false;
-  const auto change = [&](Statement& s) { s.inactive = inactive, any = true; };
+  const auto change = [&](std::size_t place) { changed(place).inactive = inactive, any = true; };
   // Of few ids each is found by itself, so that many commands do not go through all statements each.
   constexpr std::size_t lookup_in_comparisons = 8;
   const auto ids = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
   if (ids < out_->statements.size() / lookup_in_comparisons) {
     for (std::int64_t id = first; id <= last; ++id) {
-      if (Statement* s = find(statement, id)) change(*s);
+      if (const auto place = place_of(statement, id)) change(*place);
     }
   } else {
-    for (Statement& s : out_->statements) {
-      if (s.name == statement && s.id && *s.id >= first && *s.id <= last) change(s);
+    for (std::size_t k = 0; k < out_->statements.size(); ++k) {
+      const Statement& s = out_->statements[k];
+      if (s.name == statement && s.id && *s.id >= first && *s.id <= last) change(k);
     }
   }
   if (!any)

@@ -2,6 +2,9 @@
 // model and into it again. A new model is made of what comes out.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -11,7 +14,7 @@
 namespace dynalin {
 
 struct EditedDataset {
-  std::shared_ptr<const Dataset> dataset;
+  std::shared_ptr<const Dataset> dataset;  // the one before where no statement is another one
   Restated restated;
 };
 
@@ -28,10 +31,11 @@ class DatasetEditor {
   // none of those that can be.
   void switch_elements(const Statement&, bool inactive, std::span<const std::string_view> classes);
 
-  EditedDataset finish() && { return {std::move(out_), std::move(restated_)}; }
+  EditedDataset finish() &&;
 
  private:
-  Statement* find(std::string_view statement, std::int64_t id);
+  std::optional<std::size_t> place_of(std::string_view statement, std::int64_t id) const;
+  Statement& changed(std::size_t place);
   const Kind* kind_of(const Statement&) const;
   bool is_setting(std::string_view statement) const;
   void merge(Statement& target, const Statement&);
@@ -41,11 +45,16 @@ class DatasetEditor {
   void switch_range(const WrittenArgument& range, std::string_view statement, bool inactive);
   void switch_one(Statement&, bool inactive, const Span& at);
 
+  bool is_as_before(std::size_t place) const;
+  void drop_origins();
+
   KindFinder finder_;
+  std::shared_ptr<const Dataset> base_;
   std::shared_ptr<Dataset> out_;
   Restated restated_;
   Diagnostics& diagnostics_;
   std::unordered_map<std::string, std::size_t> place_;
+  std::set<std::size_t> touched_;  // statements
 };
 
 }  // namespace dynalin

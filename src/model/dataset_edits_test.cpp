@@ -46,6 +46,40 @@ TEST(DatasetEdits, leave_other_arguments_as_they_are) {
   EXPECT_THAT(edit("PART/1, GROUND", "PART/2, MASS=1").problems, HasSubstr("PART/2 does not exist"));
 }
 
+TEST(DatasetEdits, that_change_nothing_leave_the_dataset_before) {
+  const auto base = statements("BUSHING/3, I=1, J=2, K=1,2,3\nPART/2, MASS=1, QG=1,0,0\n");
+  const auto is_base = [&](const std::string& by) {
+    Diagnostics problems;
+    const auto written = statements(by);
+    DatasetEditor editor(base, written, catalogue(), problems);
+    for (const Statement& s : written->statements) editor.redefine(s);
+    return std::move(editor).finish().dataset == base;
+  };
+  EXPECT_TRUE(is_base("BUSHING/3, k=1,2,3, I=1"));
+  EXPECT_TRUE(is_base("BUSHING/3, K=4,2,3\nBUSHING/3, K=1,2,3"));
+  EXPECT_FALSE(is_base("BUSHING/3, K=1,2,4"));
+  EXPECT_FALSE(is_base("BUSHING/3, C=1,2,3"));
+  EXPECT_FALSE(is_base("PART/2, QG=1,0,0"));  // begins there once more
+  EXPECT_FALSE(is_base("ACCGRAV/KGRAV=1"));
+}
+
+// However many have come and gone.
+TEST(DatasetEdits, keep_the_texts_that_statements_point_into) {
+  std::shared_ptr<const Dataset> now = statements("BUSHING/3, I=1, J=2, K=1,2,3\nPART/2, MASS=1\n");
+  std::weak_ptr<const Dataset> first;
+  for (int k = 1; k <= 20; ++k) {
+    Diagnostics problems;
+    const auto written = statements(fmt::format("BUSHING/3, K={},5,6\n", 10 + k));
+    DatasetEditor editor(now, written, catalogue(), problems);
+    editor.redefine(written->statements.front());
+    now = std::move(editor).finish().dataset;
+    if (k == 1) first = now;
+  }
+  EXPECT_EQ(now->origins.size(), 2u);
+  EXPECT_TRUE(first.expired());
+  EXPECT_EQ(now->statements.front().arguments.back().value_span().text(), "30,5,6");
+}
+
 TEST(DatasetEdits, take_what_another_argument_excludes) {
   struct Row {
     std::string before, by, after;

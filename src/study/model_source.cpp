@@ -54,6 +54,12 @@ Parsed<MadeModel> made_model(Parsed<Dataset> parsed, Statements statements, cons
 
 Parsed<MadeModel> edited_model(const MadeModel& before, Parsed<EditedDataset> edit, const ModelOptions& options) {
   Parsed<MadeModel> made{{}, std::move(edit.diagnostics)};
+  // Files that it names may have changed meanwhile.
+  if (edit.value.dataset == before.dataset && before.system && before.model->input_files.empty()) {
+    made.value = before;
+    made.value.restated = {};
+    return made;
+  }
   auto built = build_model(edit.value.dataset, catalogue(), {.user_value = options.user_value, .edited = true},
                            options.routines);
   made.value.dataset = std::move(edit.value.dataset), made.value.model = std::move(built.value);

@@ -34,7 +34,8 @@ struct MadeModel {
 };
 
 Parsed<MadeModel> made_model(Parsed<Dataset>, Statements, const ModelOptions&);
-// Says what is wrong with the edit and with the model that comes out of it; of warnings those that are new.
+// Says what is wrong with the edit and with the model that comes out of it; of warnings those that are new. An edit
+// that changes nothing leaves the model as it is.
 Parsed<MadeModel> edited_model(const MadeModel& before, Parsed<EditedDataset>, const ModelOptions&);
 
 // Says the same at another place.

@@ -76,6 +76,7 @@ StudyPoint as_drawn(std::shared_ptr<const System> system) {
 }
 
 StudyPoint continued(const StudyPoint& before, std::shared_ptr<const System> edited, const Restated& restated) {
+  if (edited == before.system && restated.empty()) return before;
   StudyPoint point = as_drawn(std::move(edited));
   point.redundant_rows = before.redundant_rows;
   if (!before.started) {

@@ -7,6 +7,7 @@
 #include "system/carried_pairs.h"
 #include "system/carried_past.h"
 #include "system/carried_turns.h"
+#include "system/found_followers.h"
 #include "system/moved_origin.h"
 #include "system/sources.h"
 
@@ -55,6 +56,17 @@ void take_over_memory(const System& from, const OperatingPoint& op, const System
   }
 }
 
+RowsBefore rows_before(const System& from, const OperatingPoint& op, const System& to) {
+  RowsBefore before(to.layout().row_count());
+  if (!has_followers(from.layout()) || !has_followers(to.layout())) return before;
+  ConstraintRows rows;
+  rows.resize(from.layout());
+  from.constraints(from.motion(op), rows);
+  for (const auto& [a, b] : matches(row_keys(from.layout()), row_keys(to.layout())))
+    before[b] = rows.along_motion(static_cast<std::int32_t>(a)).value;
+  return before;
+}
+
 }  // namespace
 
 OperatingPoint carried_over(const System& from, const OperatingPoint& op, const System& to, const Restated& restated) {
@@ -85,6 +97,8 @@ OperatingPoint carried_over(const System& from, const OperatingPoint& op, const 
     copy_block(op.velocity, before.offset, out.velocity, after.offset, after.count);
     copy_block(op.acceleration, before.offset, out.acceleration, after.offset, after.count);
   }
+
+  find_followers(to, rows_before(from, op, to), out);
 
   for (const auto& [a, b] : matches(row_keys(old), row_keys(now))) out.lambda[b] = op.lambda[a];
 

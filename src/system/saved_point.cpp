@@ -4,6 +4,7 @@
 #include <set>
 
 #include "system/carried_past.h"
+#include "system/found_followers.h"
 #include "system/moved_origin.h"
 
 namespace dynalin {
@@ -163,7 +164,12 @@ RestoredPoint restored_point(const SavedPoint& saved, const System& system) {
       return true;
     };
   };
-  restorer.restore(saved.multipliers, row_keys(layout), into(op.lambda));
+  RowsBefore met(layout.row_count());  // as a point that an analysis has found has them
+  restorer.restore(saved.multipliers, row_keys(layout), [&](const SavedPoint::Value& from, std::size_t k) {
+    op.lambda[k] = from.value, met[k] = 0.0;
+    return true;
+  });
+  find_followers(system, met, op);
   restorer.restore(saved.values, value_keys(layout), into(op.algebraic));
   std::vector<EntryKey> remembered = memory_keys(layout);
   // Of what elements remember: angles have no key here.

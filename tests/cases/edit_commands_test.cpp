@@ -1,10 +1,12 @@
 // Commands that change the model between analyses: redefinition, ACTIVATE and DEACTIVATE.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cases/run.h"
+#include "command/planner.h"
 
 namespace dynalin::cases::edit_commands_test {
 namespace {
@@ -293,6 +295,66 @@ TEST_F(EditCommands, what_goes_with_the_type_before_is_named) {
   EXPECT_THAT(r.err, HasSubstr("model.acf:3:1: warning: K, LENGTH of SPRINGDAMPER/1 are dropped with its type: "
                                "ROTATIONAL has no such argument [dropped-argument]"));
   EXPECT_EQ(r.err.find("dropped-argument"), r.err.rfind("dropped-argument")) << r.err;
+}
+
+// Of a table of arguments that all types have in common, too.
+TEST_F(EditCommands, what_goes_with_the_type_of_a_joint_goes_with_it) {
+  const auto said_of = [&](const std::string& joint, const std::string& edit) {
+    const RunResult r =
+        run("t\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2\n"
+            "BUSHING/1, I=2, J=1, K=1,1,1, KT=1,1,1\nJOINT/1, " +
+                joint + ", I=2, J=1\nEND\n",
+            edit + "\nLINEAR/EIGENSOL\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said_of("REVOLUTE, IC=.2,.4", "JOINT/1, CYLINDRICAL"),
+              HasSubstr("IC of JOINT/1 is dropped with its type: CYLINDRICAL has no such argument"));
+  EXPECT_THAT(said_of("CYLINDRICAL, ICTRAN=.1, ICROT=.2,.4", "JOINT/1, TRANSLATIONAL, IC=.3"),
+              HasSubstr("ICTRAN, ICROT of JOINT/1 are dropped"));
+  EXPECT_THAT(said_of("SCREW, PITCH=.1", "JOINT/1, REVOLUTE"), HasSubstr("PITCH of JOINT/1 is dropped"));
+  EXPECT_THAT(said_of("SCREW, PITCH=.1", "JOINT/1, CYLINDRICAL, ICROT=.2"), HasSubstr("PITCH of JOINT/1 is dropped"));
+  EXPECT_EQ(said_of("REVOLUTE, IC=.2,.4", "JOINT/1, TRANSLATIONAL").find("dropped"), std::string::npos);
+}
+
+// They leave the model and its point as they are, to the last bit.
+TEST_F(EditCommands, edits_that_change_nothing_are_as_if_nothing_had_been_said) {
+  const std::string swinging =
+      "two\nUNITS/SYSTEM=MKS\nACCGRAV/JGRAV=-9.81\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=.3,.4,.5, "
+      "QG=.7,.1,.2, REULER=.3,.2,.1\nMARKER/20\nMARKER/21, QP=-.7,-.1,-.2\nMARKER/22, QP=.4,.1,0\nPART/3, MASS=2, "
+      "CM=30, IP=.3,.4,.5, QG=1.4,.1,.4, REULER=1.3,.4,.1\nMARKER/30\nMARKER/31, QP=-.4,.1,0\nJOINT/1, SPHERICAL, "
+      "I=21, J=1\nJOINT/2, SPHERICAL, I=31, J=22\nBUSHING/1, I=30, J=1, K=1,1,1, C=.1,.1,.1\nEND\n";
+  const auto end = [&](const std::string& between) {
+    const RunResult r = run(swinging, "SIMULATE/DYNAMICS, END=.3\n" + between + "SIMULATE/DYNAMICS, END=.6\n");
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.json.at("results").back().at("operating_point").dump();
+  };
+  const std::string wanted = end("TIME\n");
+  EXPECT_EQ(end("BUSHING/1, C=.1,.1,.1, K=1,1,1\n"), wanted);
+  EXPECT_EQ(end("DEACTIVATE/JOINT, ID=2\nACTIVATE/JOINT, ID=2\n"), wanted);
+  EXPECT_EQ(end("BUSHING/1, K=2,1,1\nBUSHING/1, K=1,1,1\nTIME\n"), wanted);
+  EXPECT_NE(end("BUSHING/1, K=2,1,1\n"), wanted);
+}
+
+// More edits one by one than models are kept for.
+TEST_F(EditCommands, each_of_many_edits_counts_in_its_turn) {
+  std::string commands;
+  for (int k = 1; k <= 30; ++k) commands += "SPRINGDAMPER/1, K=" + std::to_string(2 * k * k) + "\nLINEAR/EIGENSOL\n";
+  SessionOptions options;
+  write("model.adm", oscillator + "END\n");
+  write("model.acf", "model\nmodel\n" + commands);
+  options.file = (folder_ / "model.acf").string();
+  std::ostringstream said;
+  const auto plan = planned(options, said);
+  ASSERT_TRUE(plan) << said.str();
+  const auto& stages = plan->jobs.front().stages;
+  EXPECT_EQ(stages.size(), 31u);
+  EXPECT_LT(std::ranges::count_if(stages, [](const Job::Stage& s) { return s.is_there(); }), 15);
+  EXPECT_TRUE(stages.back().is_there());
+
+  const RunResult r = run_file("model.acf");
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (std::size_t k = 1; k <= 30; ++k) expect_frequency(r, 2 * k - 1, static_cast<double>(k));
 }
 
 TEST_F(EditCommands, a_redundant_lock_comes_and_goes) {

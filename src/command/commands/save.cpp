@@ -54,7 +54,7 @@ SavedFile::Model saved_model(const RunState& run, const Job::Stage& stage) {
   const fs::path absolute = fs::absolute(source.name(), unknown);
   model.path = unknown ? source.name() : absolute.lexically_normal().string();
   model.text = source.text();
-  model.edits = stage.edits;
+  model.edits = stage.edits.list();
   model.pade = run.options.pade;
   for (SavedFile::Model::Further& file : files_of(*stage.model)) {
     const fs::path path = fs::absolute(file.path, unknown);

@@ -52,6 +52,8 @@ struct CurveOnCurve {
         std::abs(b) > flat ? b : 0.0, u[0], u[1]);
   }
 
+  std::array<double, 2> nearest(const RelativeFrame<double>& I) const;
+
  private:
   // From the x-y plane of I into the axes of J.
   template <class T>
@@ -121,6 +123,10 @@ class NearestContact {
   const RelativeFrame<double>& I_;
   const CurveOnCurve& e_;
 };
+
+std::array<double, 2> CurveOnCurve::nearest(const RelativeFrame<double>& I) const {
+  return NearestContact(I, *this).find();
+}
 
 struct Cvcv {
   MarkerId ifloat, irm, iicm, jfloat, jrm, jicm;
@@ -216,7 +222,7 @@ class CvcvSet final : public CurveContactSet<Cvcv, CurveOnCurve> {
   static std::array<ContactStart, 2> start(const Model& model, const Cvcv& e, const Curve& a, const Curve& b,
                                            const CurveOnCurve& element) {
     const RelativeFrame<double> I = drawn_frame(model, e.irm, e.jrm);
-    std::array<double, 2> u = NearestContact(I, element).find();
+    std::array<double, 2> u = element.nearest(I);
     // A stated point on one curve leaves the point next to it on the other.
     if (e.idisp) {
       u[0] = stated_parameter(model, a, *e.idisp, e.irm, e.iicm);

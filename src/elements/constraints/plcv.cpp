@@ -41,7 +41,7 @@ struct PlaneOnCurve {
   }
 
   // Where the curve comes or goes farthest along z, next to the plane; of a curve that does neither, its nearest end.
-  double nearest(const RelativeFrame<double>& I) const {
+  std::array<double, 1> nearest(const RelativeFrame<double>& I) const {
     const ParametricCurve& c = *curves[0];
     const auto height = [&](double u) { return dot(I.z, c.at(u) - I.p); };
     const auto slope = [&](double u) { return dot(I.z, c.at(u, 1)); };
@@ -60,7 +60,7 @@ struct PlaneOnCurve {
       if (touches && std::abs(height(low)) >= std::abs(height(best))) continue;
       best = low, touches = true;
     }
-    return best;
+    return {best};
   }
 };
 
@@ -111,7 +111,7 @@ class PlcvSet final : public CurveContactSet<Plcv, PlaneOnCurve> {
         continue;
       }
       const PlaneOnCurve element{{curve->shape}};
-      ContactStart start{element.nearest(drawn_frame(model, e.i, e.rm)), e.disp.has_value(), e.vel};
+      ContactStart start{element.nearest(drawn_frame(model, e.i, e.rm))[0], e.disp.has_value(), e.vel};
       if (e.disp) start.parameter = stated_parameter(model, *curve, *e.disp, e.rm, e.icm);
       contacts_.push_back(
           {element, e.i, e.rm, e.ifloat, e.jfloat, {{e.ifloat, e.rm, 0}, {e.jfloat, e.rm, 0}}, {start}});

@@ -29,6 +29,7 @@ struct PointOnCurve {
   Vec3<T> point(const RelativeFrame<T>&, const std::array<T, 1>&) const {
     return {T(0.0), T(0.0), T(0.0)};
   }
+  std::array<double, 1> nearest(const RelativeFrame<double>& I) const { return {curves[0]->nearest(I.p)}; }
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 //     template <class T> Vec3<T> point(const RelativeFrame<T>& I, const std::array<T, m>& u) const;
 //                                                                        // of contact, from the origin of I in J's
 //                                                                        axes
+//     std::array<double, m> nearest(const RelativeFrame<double>& I) const;  // parameters, where nothing states them
 //
 // Rows at all levels, reactions and their variation follow: with the row gradients along displacement and rotation of I
 // as seen from J and along u as seeds 0–5 and 6 on, the balance of a parameter is Σ λ_r ∂Φ_r/∂u = 0, so a reaction does
@@ -24,6 +25,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -34,6 +36,7 @@
 #include "elements/families/curve.h"
 #include "elements/families/markers.h"
 #include "mechanics/event_source.h"
+#include "mechanics/follower_source.h"
 #include "mechanics/kernel.h"
 #include "mechanics/path.h"
 #include "mechanics/start_source.h"
@@ -79,7 +82,11 @@ bool check_start_axes(const Model&, const ElementLabel&, MarkerId axes, std::str
                       Diagnostics&);
 
 template <class E>
-class CurveContactKernel final : public Kernel, public WrenchSource, public StartSource, public SwitchSource {
+class CurveContactKernel final : public Kernel,
+                                 public WrenchSource,
+                                 public StartSource,
+                                 public SwitchSource,
+                                 public FollowerSource {
  public:
   static constexpr std::size_t n = E::row_names.size(), m = E::parameter_names.size(), seeds = 6 + m;
 
@@ -115,8 +122,17 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
         starts_.push_back({&labels[k], "contact point", place, s.velocity, E::starts[a]});
         start_places_.push_back({contacts_.size(), a});
       }
+      followers_.push_back(
+          {p.first_coordinate, static_cast<std::int32_t>(m), p.first_row, static_cast<std::int32_t>(n)});
       contacts_.push_back(std::move(p));
     }
+  }
+
+  std::span<const Follower> followers() const override { return followers_; }
+  void find(std::size_t k, const Motion& motion, std::span<double> values) const override {
+    const Placed& p = contacts_[k];
+    const auto u = p.contact.element.nearest(pose_of(pair_motion(motion, p.I, p.J).relative));
+    std::copy(u.begin(), u.end(), values.begin());
   }
 
   void constraints(const Motion& motion, ConstraintRows& rows) const override {
@@ -336,6 +352,7 @@ class CurveContactKernel final : public Kernel, public WrenchSource, public Star
   }
 
   std::vector<Placed> contacts_;
+  std::vector<Follower> followers_;
   std::vector<StartCondition> starts_;
   std::vector<std::pair<std::size_t, std::size_t>> start_places_;  // contact, parameter
   const std::vector<ElementLabel>* labels_;

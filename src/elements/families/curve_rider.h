@@ -55,9 +55,10 @@ class CurveRiderSet final : public CurveContactSet<CurveRider, E> {
         continue;
       }
       model.markers[static_cast<std::size_t>(e.jfloat.index)].follows = e.i;
-      ContactStart start{written->shape->nearest(drawn_frame(model, e.i, e.rm).p), e.disp.has_value(), e.vel};
+      const E element{{written->shape}};
+      ContactStart start{element.nearest(drawn_frame(model, e.i, e.rm))[0], e.disp.has_value(), e.vel};
       if (e.disp) start.parameter = stated_parameter(model, *written, *e.disp, e.rm, e.icm);
-      this->contacts_.push_back({{{written->shape}}, e.i, e.rm, e.i, e.jfloat, {{e.jfloat, e.rm, 0}}, {start}});
+      this->contacts_.push_back({element, e.i, e.rm, e.i, e.jfloat, {{e.jfloat, e.rm, 0}}, {start}});
     }
   }
 };

@@ -98,6 +98,32 @@ struct PrimitiveArguments {
   }};
 };
 
+template <class E>
+constexpr bool joint_rotates() {
+  if constexpr (requires { E::rotates; }) return E::rotates;
+  return false;
+}
+template <class E>
+constexpr bool joint_translates() {
+  if constexpr (requires { E::translates; }) return E::translates;
+  return false;
+}
+template <class E>
+constexpr std::string_view joint_parameter() {
+  if constexpr (requires { E::parameter; }) return E::parameter;
+  return {};
+}
+
+// Whether an argument of joints goes with joints of this type.
+template <class E>
+constexpr bool goes_with_joint(std::string_view argument) {
+  constexpr bool rotates = joint_rotates<E>(), translates = joint_translates<E>();
+  if (argument == "PITCH" || argument == "PD") return argument == joint_parameter<E>();
+  if (argument == "IC") return rotates != translates;
+  if (argument == "ICTRAN" || argument == "ICROT") return rotates && translates;
+  return true;
+}
+
 // What MOTION, other relations and FRICTION need to know of a joint.
 class JointSetBase : public ElementSet {
  public:
@@ -127,14 +153,9 @@ class JointSet final : public JointSetBase {
     if constexpr (std::is_same_v<Written, JointArguments>) {
       read_parameter(w.pitch, "PITCH", joints[k].element, reader);
       read_parameter(w.pd, "PD", joints[k].element, reader);
-      const bool both = rotates() && translates();
-      read_start(w.ic, "IC",
-                 !both && rotates()      ? &joints[k].rotation
-                 : !both && translates() ? &joints[k].translation
-                                         : nullptr,
-                 reader);
-      read_start(w.ictran, "ICTRAN", both ? &joints[k].translation : nullptr, reader);
-      read_start(w.icrot, "ICROT", both ? &joints[k].rotation : nullptr, reader);
+      read_start(w.ic, "IC", rotates() ? joints[k].rotation : joints[k].translation, reader);
+      read_start(w.ictran, "ICTRAN", joints[k].translation, reader);
+      read_start(w.icrot, "ICROT", joints[k].rotation, reader);
       warn_of_obsolete(reader);
     }
     if (ok) joints[k].i = w.i, joints[k].j = w.j;
@@ -164,14 +185,8 @@ class JointSet final : public JointSetBase {
   }
   MarkerId marker_I(std::size_t k) const override { return joints[k].i; }
   MarkerId marker_J(std::size_t k) const override { return joints[k].j; }
-  bool rotates() const override {
-    if constexpr (requires { E::rotates; }) return E::rotates;
-    return false;
-  }
-  bool translates() const override {
-    if constexpr (requires { E::translates; }) return E::translates;
-    return false;
-  }
+  bool rotates() const override { return joint_rotates<E>(); }
+  bool translates() const override { return joint_translates<E>(); }
   JointSurfaces surfaces() const override {
     if constexpr (requires { E::surfaces; }) return E::surfaces;
     return JointSurfaces::none;
@@ -197,27 +212,23 @@ class JointSet final : public JointSetBase {
                                fmt::join(given, ", ")),
                    "the statement FRICTION replaces it");
   }
-  static void read_start(const std::vector<double>& values, std::string_view name, JointStart* start,
+  static void read_start(const std::vector<double>& values, std::string_view name, JointStart& start,
                          ElementReader& reader) {
     if (values.empty()) return;
-    if (!start) {
+    if (!goes_with_joint<E>(name)) {
       reader.error("unexpected-argument", reader.at(name), fmt::format("{} does not go with {}", name, E::variant));
     } else if (values.size() > 2) {
       reader.error("wrong-count", reader.at(name),
                    fmt::format("{} takes a displacement and a velocity, here are {} values", name, values.size()));
     } else {
-      start->argument = name;
-      start->displacement = values[0];
-      if (values.size() == 2) start->velocity = values[1];
+      start.argument = name;
+      start.displacement = values[0];
+      if (values.size() == 2) start.velocity = values[1];
     }
   }
   static void read_parameter(const std::optional<double>& value, std::string_view name, E& element,
                              ElementReader& reader) {
-    constexpr std::string_view wanted = [] {
-      if constexpr (requires { E::parameter; }) return E::parameter;
-      return std::string_view();
-    }();
-    if (name != wanted) {
+    if (!goes_with_joint<E>(name)) {
       if (value) {
         reader.error("unexpected-argument", reader.at(name), fmt::format("{} does not go with {}", name, E::variant));
       }
@@ -237,13 +248,21 @@ class JointSet final : public JointSetBase {
   }
 };
 
+// A change of type drops what does not go with the new one.
+template <class E>
+inline constexpr auto joint_argument_infos = [] {
+  auto infos = detail::argument_infos<JointArguments>;
+  for (ArgumentInfo& info : infos) info.elsewhere = !goes_with_joint<E>(info.name);
+  return infos;
+}();
+
 template <class E>
 constexpr Kind joint() {
   return Kind{"JOINT",
               E::variant,
               E::summary,
               Kind::Role::element,
-              detail::argument_infos<JointArguments>,
+              joint_argument_infos<E>,
               [](const Kind& kind) -> std::unique_ptr<ElementSet> {
                 return std::make_unique<JointSet<E, JointArguments>>(kind);
               }}
