@@ -27,7 +27,7 @@ TEST(StatedElements, are_read_as_the_statements_they_say) {
   EXPECT_FALSE(made.value.statements[0].id);
   const Statement& cart = made.value.statements[3];
   EXPECT_EQ(cart.id, 2);
-  EXPECT_EQ(cart.view_name, "cart");
+  EXPECT_EQ(cart.view_name(), "cart");
   ASSERT_THAT(cart.arguments, SizeIs(2));
   EXPECT_EQ(cart.arguments[0].name.text(), "MASS");
   EXPECT_EQ(cart.arguments[0].value_span().text(), "0.10000000000000001");  // to the last bit
