@@ -32,7 +32,9 @@ void ConservativeSearch::follow_shift() {}
 std::vector<Complex> ConservativeSearch::values_of(double square) const {
   if (square < 0) return {std::sqrt(-square), -std::sqrt(-square)};
   const Complex upper(0, std::sqrt(square));
-  if (op_->shift().imag() != 0 && square > 0) return {upper};
+  // What is next to zero may have come out on either side of it: as many values on both.
+  const double zero = zero_from_a_shift * std::abs(op_->shift());
+  if (op_->shift().imag() != 0 && square > zero * zero) return {upper};
   return {upper, std::conj(upper)};
 }
 

@@ -7,6 +7,9 @@
 
 namespace dynalin {
 
+// Of a shift: moduli that may be those of zeros, as they come out from there.
+inline constexpr double zero_from_a_shift = 1e-6;
+
 class ModeSearch {
  public:
   virtual ~ModeSearch() = default;

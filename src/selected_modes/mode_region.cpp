@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/cycle.h"
@@ -53,6 +54,13 @@ std::vector<Complex> KnownModes::all() const {
     if (v.imag() != 0) both.push_back(std::conj(v));
   }
   return both;
+}
+
+bool belongs_to(const ModesInBand& band, Complex value, double bound) {
+  constexpr double of_conversion = 4 * std::numeric_limits<double>::epsilon();
+  const double size = std::abs(value), slack = std::clamp(bound, of_conversion * size, equal_distances * size);
+  const double f = std::abs(value.imag());
+  return f >= band.low - slack && f <= band.high + slack && std::abs(value.real()) <= band.high + slack;
 }
 
 bool ModeRegion::has(Complex v) const {

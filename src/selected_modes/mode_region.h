@@ -37,8 +37,12 @@ struct ModeRegion {
   Eigen::Index count(const KnownModes&) const;  // eigenvalues inside
 };
 
-// Distances and borders that differ by less, relative to the eigenvalue, are equal.
+// Distances that differ by less, relative to the eigenvalue, are equal; so are borders to a search.
 constexpr double equal_distances = 1e-9;
+
+// A mode belongs to a band if its value within its bound may be inside [cycles/time]. Bounds that are wider than equal
+// distances are a doubt of their own, and no wider border.
+bool belongs_to(const ModesInBand&, std::complex<double> value, double bound);
 
 // The disc that holds the nearest modes beside `zeros` structural ones, and equally near ones; nothing if the first one
 // outside is not among those that are known. `everything` says that there are no others.

@@ -65,6 +65,7 @@ bool RegionSearch::find(const ModeSelection& selection) {
   selected_.doubt.clear();
   const auto* nearest = std::get_if<NearestModes>(&selection);
   const bool found = nearest ? find_nearest(*nearest) : find_band(std::get<ModesInBand>(selection));
+  too_far_down_ = found && has_modes_too_far_down();
   by_inertia_.reset();
   return found;
 }
@@ -101,15 +102,18 @@ std::vector<Complex> RegionSearch::values() const {
     if (KnownModes::is_real(v, op_.shift())) v.imag(0);
   }
   // So small they are zeros of long chains, or next to it, scattered by rounding.
-  const double near = std::max(near_, 1e-6 * std::abs(op_.shift())), scattered = 2e-3 * near;
+  const double scattered = 2e-3 * near();
   for (Complex& v : all) {
     if (std::abs(v) <= scattered) v.imag(0);
   }
   for (std::size_t k = 0; k < all.size() && k < static_cast<std::size_t>(zero_.count()); ++k) {
-    if (std::abs(all[k]) <= near) all[k] = 0;
+    if (std::abs(all[k]) <= near()) all[k] = 0;
   }
   return all;
 }
+
+double RegionSearch::near() const { return std::max(near_, zero_from_a_shift * std::abs(op_.shift())); }
+
 // From shifts on the real axis both members of every pair are found.
 
 bool RegionSearch::both_members() const { return region_.centre.imag() == 0 && region_.low == 0; }
@@ -191,10 +195,9 @@ bool RegionSearch::count() {
 }
 
 bool RegionSearch::find_nearest(const NearestModes& nearest) {
-  if (nearest.frequency > 0) {
-    const double modulus = cycle * nearest.frequency;
+  if (nearest.frequency > 0 || from_ > 0) {
     start_anew();
-    if (!move_to(shift_at(modulus))) return false;
+    if (!move_to(nearest.frequency > 0 ? shift_at(cycle * nearest.frequency) : Complex(from_))) return false;
     op_.find_units();
   }
   const Index per_mode = nearest.frequency > 0 ? 1 : 2;
@@ -291,6 +294,21 @@ bool RegionSearch::find_band(const ModesInBand& band) {
     inside_before = inside;
   }
   return !shifts_.empty();
+}
+
+// Counted, as nothing that was found there can be relied on.
+bool RegionSearch::has_modes_too_far_down() {
+  constexpr double told_apart = 1e-4;  // of moduli, 1e-8 of their squares
+  if (!conservative_ || both_members()) return false;
+  double floor = told_apart * std::abs(op_.shift());
+  for (const Complex& shift : shifts_) floor = std::max(floor, told_apart * std::abs(shift));
+  const double low = region_.is_disc ? region_.centre.imag() - region_.radius : region_.low;
+  if (low >= floor) return false;
+  if (!by_inertia_) by_inertia_ = std::make_unique<InertiaCount>(conservative_);
+  const auto up_to = by_inertia_->below(floor * floor),
+             from = by_inertia_->below(region_.is_disc ? -floor * floor : low * low);
+  // Each freedom that nothing holds has two zeros; no band with a border below has any.
+  return !up_to || !from || 2 * (*up_to - *from) > (region_.is_disc ? zero_.count() : 0);
 }
 
 }  // namespace dynalin

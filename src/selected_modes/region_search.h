@@ -29,6 +29,8 @@ class RegionSearch {
   bool find_zeros(const System&, const Perturbation&);
   // False where an iteration does not converge; the outcome says how many were found and counted.
   bool find(const ModeSelection&);
+  // The nearest to the origin are looked for from this shift on the real axis, and not from where zeros were found.
+  void start_from(double shift) { from_ = shift; }
   // So many that the full solution costs less.
   bool too_many() const;
 
@@ -44,7 +46,10 @@ class RegionSearch {
   const std::vector<std::complex<double>>& shifts() const { return shifts_; }  // where right vectors were found
   const NearZero& zero() const { return zero_; }
   bool all_zeros() const { return all_zeros_; }
-  double near() const { return near_; }  // the modulus of what may be a zero
+  double near() const;  // the modulus of what may be a zero, as it comes out from the last shift
+  // Undamped modes of the region are so far below the shifts that 1/(ω² − σ) has no digits of them: what was found in
+  // their place is a mixture of them, and of zeros.
+  bool reaches_too_far_down() const { return too_far_down_; }
 
  private:
   // How many factorizations the count around one border may take, and around how many borders it may come to nothing:
@@ -70,6 +75,7 @@ class RegionSearch {
   double reach_of_region() const;
   bool look_for_more(double radius);
   bool find_band(const ModesInBand&);
+  bool has_modes_too_far_down();
 
   const PerturbationEquations& equations_;
   const std::shared_ptr<const ConservativeModel> conservative_;
@@ -82,8 +88,8 @@ class RegionSearch {
   std::unique_ptr<InertiaCount> by_inertia_;  // while it is counted
   CountingLimits counting_;                   // what is left of them
   Eigen::Index missing_ = 0;
-  bool all_zeros_ = true;
-  double near_ = 0;
+  bool all_zeros_ = true, too_far_down_ = false;
+  double near_ = 0, from_ = 0;
   SelectedModes selected_;
 };
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/blas_threads.h"
+#include "base/cycle.h"
 #include "base/parallel.h"
 #include "perturbation/perturbed_point.h"
 #include "selected_modes/backward_errors.h"
@@ -31,10 +32,22 @@ using ComplexMatrix = Eigen::MatrixXcd;
 // zeros in long chains are amplified into it, beyond the second the full solution has better ones.
 constexpr double no_vector = 1e-9, inexact_vector = 1e-12;
 
+// And of its modulus, what a value may be off by before that of the full solution is asked for.
+constexpr double inexact_value = 1e-8;
+
 double largest_backward_error(const EigenSolution& solution) {
   double largest = 0;
   for (const EigenMode& m : solution.modes) {
     if (!m.structural_zero && !(m.backward_error <= largest)) largest = m.backward_error;
+  }
+  return largest;
+}
+
+double largest_relative_bound(const EigenSolution& solution) {
+  double largest = 0;
+  for (const EigenMode& m : solution.modes) {
+    const double of_modulus = m.error_bound_hz / std::abs(m.eigenvalue_hz);
+    if (!m.structural_zero && !(of_modulus <= largest)) largest = of_modulus;
   }
   return largest;
 }
@@ -60,6 +73,13 @@ class Solution {
       return tl::unexpected(no_convergence("no shift near zero could be factored"));
     if (search_.too_many()) return tl::unexpected(no_convergence("too many zeros for the Krylov iteration"));
     Result<EigenSolution> found = find(wanted_, vectors);
+    if (found && may_be_better_from_farther(*found)) {
+      search_.start_from(farther_shift(*found));
+      Result<EigenSolution> again = find(wanted_, vectors);
+      const bool better = again && again->selected->complete && modes_in(*again) == modes_in(*found) &&
+                          largest_relative_bound(*again) < largest_relative_bound(*found);
+      return better ? std::move(again) : std::move(found);
+    }
     const auto* nearest = std::get_if<NearestModes>(&wanted_);
     if (!nearest || !found || found->selected->complete) return found;
     // Slow pairs that rounding has scattered may have been taken for two real values each: so many more make up for it.
@@ -70,6 +90,22 @@ class Solution {
   }
 
  private:
+  // From a shift that is small against the modes, zeros in chains are 1/σ² and leave these few digits.
+  bool may_be_better_from_farther(const EigenSolution& found) const {
+    const auto* nearest = std::get_if<NearestModes>(&wanted_);
+    return nearest && nearest->frequency == 0 && found.selected->complete && search_.zero().count() > 0 &&
+           modes_in(found) > 0 && !(largest_relative_bound(found) <= inexact_value) &&
+           farther_shift(found) > 3 * std::abs(op_.shift());
+  }
+  static double farther_shift(const EigenSolution& found) {
+    constexpr double of_the_nearest = 0.3137;
+    double least = std::numeric_limits<double>::infinity();
+    for (const EigenMode& m : found.modes) {
+      if (!m.structural_zero) least = std::min(least, cycle * std::abs(m.eigenvalue_hz));
+    }
+    return of_the_nearest * least;
+  }
+
   Result<EigenSolution> find(const ModeSelection& selection, Vectors vectors) {
     const bool found = search_.find(selection);
     if (search_.too_many()) return tl::unexpected(no_convergence("too many modes for the Krylov iteration"));
@@ -134,13 +170,25 @@ class Solution {
     for (const Complex& v : right_side.values()) {
       if (!in_part(v)) continue;
       distance = std::min(distance, std::max(counted.distance_to_border(v), 1e-300));
-      if (is_mirror(v)) distance = std::min(distance, 2 * std::abs(v));
+      // The other member is among the others, whether or not the search has seen it.
+      if (conservative_ && std::abs(v.imag()) > search_.near()) distance = std::min(distance, 2 * std::abs(v.imag()));
     }
     const NearZero zero = counted.has(0) ? search_.zero() : NearZero{Matrix(op_.states(), 0), Matrix(0, 0)};
     const bool both = !conservative_ && counted.centre.imag() == 0 && !upper_half;
-    return bounded_pairs(equations_, op_,
-                         {std::move(right.basis), std::move(right.matrix), std::move(left.basis), both}, zero,
-                         distance);
+    auto bounded =
+        bounded_pairs(equations_, op_, {std::move(right.basis), std::move(right.matrix), std::move(left.basis), both},
+                      zero, distance);
+    // The bounds hold as far from what was found as that is from all others.
+    const std::vector<Complex> seen = right_side.values();
+    for (std::size_t k = 0; bounded && k < bounded->pairs.values.size(); ++k) {
+      const Complex value = bounded->pairs.values[k];
+      double moved = std::numeric_limits<double>::infinity();
+      for (const Complex& v : seen) {
+        if (in_part(v)) moved = std::min({moved, std::abs(v - value), std::abs(std::conj(v) - value)});
+      }
+      if (!(moved + bounded->trust[k].bound <= distance)) return std::nullopt;
+    }
+    return bounded;
   }
 
   EigenSolution solution(BoundedPairs& found, Vectors vectors) {
@@ -154,9 +202,19 @@ class Solution {
     out.states = perturbation_.model.states;
     const EigenPairs& pairs = found.pairs;
     std::vector<std::size_t> order = printed_order(pairs.values);
+    const ModeRegion& region = search_.region();
+    const auto* band = std::get_if<ModesInBand>(&wanted_);
+    bool may_be_beyond = false;
     std::erase_if(order, [&](std::size_t k) {
-      return !search_.region().has(pairs.values[k]) &&
-             std::abs(pairs.values[k] - search_.region().centre) > found.trust[k].bound;
+      const Complex v = pairs.values[k];
+      if (!band) return !region.has(v) && std::abs(v - region.centre) > found.trust[k].bound;
+      if (belongs_to(*band, v / cycle, found.trust[k].bound / cycle)) return false;
+      may_be_beyond = may_be_beyond || may_be_beyond_band(*band, {mode_of(pairs, found.trust[k], k)});
+      // The search has counted what is next to a border as inside.
+      const std::size_t members = v.imag() == 0 ? 1 : 2;
+      if (region.has(v) && std::min(selected_.found, selected_.counted) >= members)
+        selected_.found -= members, selected_.counted -= members;
+      return true;
     });
     const NearZero& zero = search_.zero();
     const Index z = zero.count();
@@ -176,9 +234,11 @@ class Solution {
       mode.backward_error = backward_error(found.residual[k] + std::abs(pairs.values[k] - computed[k]));
     }
     if (selected_.complete) {
-      const ModeRegion& region = search_.region();
       const bool everything = search_.right().everything() && search_.count_in(region) == search_.right().found();
       selected_.doubt = doubt_of(out.modes, wanted_, {region, op_.states(), search_.all_zeros(), everything});
+      if (selected_.doubt.empty() && may_be_beyond) selected_.doubt = beyond_band;
+      if (selected_.doubt.empty() && search_.reaches_too_far_down())
+        selected_.doubt = "some are so far below the frequencies asked for that they are not told apart from there";
       const double error = largest_backward_error(out);
       if (selected_.doubt.empty() && !(error <= no_vector))
         selected_.doubt = fmt::format("their vectors leave {:.1e} of the state matrix", error);
@@ -226,10 +286,13 @@ Result<EigenSolution> eigensolve_selected(const System& system, const Perturbati
   }();
   const bool settled = solution && solution->selected->complete;
   if (!settled && states <= most_for_full_solution) return from_all();
-  if (settled && states <= states_of_middling_models && !(largest_backward_error(*solution) <= inexact_vector)) {
-    if (auto all = from_all(); all && largest_backward_error(*all) < largest_backward_error(*solution)) return all;
-  }
-  return solution;
+  if (!settled || states > states_of_middling_models) return solution;
+  const double of_vectors = largest_backward_error(*solution), of_values = largest_relative_bound(*solution);
+  if (of_vectors <= inexact_vector && of_values <= inexact_value) return solution;
+  auto all = from_all();
+  const bool better = all && ((of_vectors > inexact_vector && largest_backward_error(*all) < of_vectors) ||
+                              (of_values > inexact_value && largest_relative_bound(*all) < of_values));
+  return better ? std::move(all) : std::move(solution);
 }
 
 }  // namespace dynalin

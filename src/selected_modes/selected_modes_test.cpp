@@ -9,6 +9,7 @@
 #include <numbers>
 #include <regex>
 
+#include "selected_modes/selection_of_modes.h"
 #include "system/model_test_support.h"
 
 namespace dynalin::selected_modes_test {
@@ -59,6 +60,97 @@ std::string lattice(int nx, int ny, int nz) {
     }
   }
   return masses + ties;
+}
+
+// Masses that do not know of each other on a spring each, or free, with these frequencies.
+std::string masses_on_springs(const std::vector<double>& frequencies) {
+  std::string text;
+  for (std::size_t k = 0; k < frequencies.size(); ++k) {
+    text += fmt::format(
+        "PART/{0}, MASS=1, CM={0}0, IP=1,1,1, QG={0},0,0\nMARKER/{0}0\nMARKER/{0}1, PART=1, QP={0},0,0\n"
+        "JOINT/{0}, TRANSLATIONAL, I={0}0, J={0}1\nBUSHING/{0}, I={0}0, J={0}1, K=0,0,{1:.17g}\n",
+        k + 2, std::pow(2 * std::numbers::pi * frequencies[k], 2));
+  }
+  return text;
+}
+
+// From NEAR, or the top of a band, 1/(ω² − σ) has no digits of what is far below.
+TEST(SelectedModes, far_below_where_they_are_looked_for_are_as_exact_as_others) {
+  const std::vector<double> all = {4e-4, 9e-4, 1.1e-3, 1, 1e6}, two = {1, 1e6};
+  for (const bool beside_free_ones : {false, true}) {
+    std::vector<double> of_model = all;
+    if (beside_free_ones) of_model.insert(of_model.begin(), 3, 0.0);
+    // What differs by less than 1e-9 of NEAR is equally near.
+    for (const auto& [wanted, expected] :
+         {std::pair(ModeSelection(NearestModes{3, 1e6}), all), std::pair(ModeSelection(NearestModes{2, 1e6}), two),
+          std::pair(ModeSelection(ModesInBand{2e-4, 2e6}), all), std::pair(ModeSelection(ModesInBand{0, 2e6}), all)}) {
+      const Selected s = selected_of_text(masses_on_springs(of_model), wanted);
+      std::vector<EigenMode> found = s.solution.modes;
+      std::erase_if(found, [](const EigenMode& m) { return m.structural_zero; });
+      EXPECT_EQ(s.solution.modes.size() - found.size(), beside_free_ones ? 6u : 0u);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        const EigenMode& m = found[k];
+        EXPECT_LE(std::abs(m.eigenvalue_hz - std::complex<double>(0, expected[k])),
+                  m.error_bound_hz + 1e-15 * expected[k]);
+        EXPECT_LE(m.error_bound_hz, 1e-12 * expected[k]);
+      }
+      EXPECT_TRUE(s.solution.selected->complete);
+    }
+  }
+}
+
+// Beyond the full solution it is said that they are not told apart, and bounds hold all the same: also where vectors
+// are mixed with those of others and of a zero.
+TEST(SelectedModes, that_are_too_far_below_in_large_models_are_not_complete) {
+  constexpr int masses = 502;
+  const std::vector<double> shares = {1.8164722e-06, 1.9651045e-06, 4.8211149e-06,
+                                      1.6253595e-05, 2.6548406e-05, 3.1828140e-05,
+                                      7.6760553e-05, 8.5208462e-05, 0};
+  for (const double near : {32.648765951252614, 1e5}) {
+    std::string text;
+    for (std::size_t k = 0; k < masses; ++k) {
+      std::string stiffness;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t place = 3 * k + axis;
+        const double f = near * (place < shares.size() ? shares[place] : 10 + 0.005 * static_cast<double>(place));
+        stiffness += fmt::format("{}{:.17g}", axis == 0 ? "" : ",", std::pow(2 * std::numbers::pi * f, 2));
+      }
+      text += fmt::format(
+          "POINT_MASS/{0}, MASS=1, QG={0},0,0\nMARKER/{0}0, POINT_MASS={0}\nMARKER/{0}1, PART=1, QP={0},0,0\n"
+          "BUSHING/{0}, I={0}0, J={0}1, K={1}\n",
+          k + 2, stiffness);
+    }
+    const Selected s = selected_of_text(text, NearestModes{8, near});
+    EXPECT_FALSE(s.solution.selected->complete);
+    if (near == 1e5) {
+      EXPECT_NE(s.solution.selected->doubt.find("so far below"), std::string::npos) << s.solution.selected->doubt;
+    }
+    EXPECT_EQ(modes_in(s.solution), shares.size() - 1);
+    for (const EigenMode& m : s.solution.modes) {
+      const bool held = std::ranges::any_of(shares, [&](double share) {
+        const double f = near * share;
+        return f > 0 && std::abs(m.eigenvalue_hz - std::complex<double>(0, f)) <= m.error_bound_hz + 1e-15 * f;
+      });
+      EXPECT_TRUE(held) << m.eigenvalue_hz << " +- " << m.error_bound_hz;
+    }
+  }
+}
+
+// Values that differ by 5e-11 of themselves, with a border between them.
+TEST(SelectedModes, beyond_the_border_of_a_band_by_more_than_their_bounds_are_not_in_it) {
+  std::vector<double> frequencies;
+  for (int k = 0; k < 8; ++k) frequencies.push_back(1.5 * (1 + 5e-11 * k));
+  for (const auto& [band, first, count] : {std::tuple(ModesInBand{0, 1.5 * (1 + 2.5e-11)}, 0u, 1u),
+                                           std::tuple(ModesInBand{1.5 * (1 + 12.5e-11), 3}, 3u, 5u)}) {
+    const Selected s = selected_of_text(masses_on_springs(frequencies), band);
+    ASSERT_EQ(s.solution.modes.size(), count);
+    for (std::size_t k = 0; k < count; ++k)
+      EXPECT_NEAR(s.solution.modes[k].eigenvalue_hz.imag(), frequencies[first + k], 1e-13);
+    EXPECT_EQ(s.solution.selected->found, 2 * count);
+    EXPECT_EQ(s.solution.selected->counted, 2 * count);
+    EXPECT_TRUE(s.solution.selected->complete);
+  }
 }
 
 TEST(SelectedModes, of_a_lattice_have_all_their_multiplicities) {
@@ -129,6 +221,31 @@ TEST(SelectedModes, of_an_overdamped_lattice_are_real_and_have_bounds) {
       EXPECT_TRUE(m.is_real) << k;
       EXPECT_EQ(solution->vectors.col(static_cast<Eigen::Index>(k)).imag().norm(), 0) << k;
     }
+  }
+}
+
+// A free row, whose zeros stand in chains: from a shift near these, modes have few digits left.
+TEST(SelectedModes, of_a_free_row_are_as_exact_as_those_of_one_that_is_held) {
+  constexpr int n = 150;
+  constexpr double stiffness = 1e8, damping = 0.01;
+  std::string text;
+  for (int k = 0; k < n; ++k) {
+    text += fmt::format("POINT_MASS/{0}, MASS=1\nMARKER/{0}, POINT_MASS={0}\n", k + 2);
+    if (k > 0)
+      text += fmt::format("BUSHING/{0}, I={0}, J={1}, K={2:.0f},{2:.0f},{2:.0f}, C={3},{3},{3}\n", k + 2, k + 1,
+                          stiffness, damping);
+  }
+  const Selected s = selected_of_text(text, NearestModes{1, 0});
+  EXPECT_EQ(s.solution.selected->by, CountedBy::winding_number);
+  const double square = 4 * std::pow(std::sin(std::numbers::pi / (2 * n)), 2), re = -damping * square / 2;
+  const std::complex<double> exact =
+      std::complex<double>(re, std::sqrt(stiffness * square - re * re)) / (2 * std::numbers::pi);
+  ASSERT_EQ(modes_in(s.solution), 3u);
+  for (const EigenMode& m : s.solution.modes) {
+    if (m.structural_zero) continue;
+    EXPECT_NEAR(m.eigenvalue_hz.real(), exact.real(), 1e-10 * std::abs(exact.real()));
+    EXPECT_NEAR(m.eigenvalue_hz.imag(), exact.imag(), 1e-13 * exact.imag());
+    EXPECT_LE(m.error_bound_hz, 1e-12 * exact.imag());
   }
 }
 

@@ -18,11 +18,8 @@ struct Region {
   double radius = 0;                  // of a disc
   const ModesInBand* band = nullptr;  // instead of it
 
-  bool has(Complex hz) const {
-    const double slack = equal_distances * std::abs(hz);
-    if (!band) return std::abs(hz - centre) <= radius;
-    const double f = std::abs(hz.imag());
-    return f >= band->low - slack && f <= band->high + slack && std::abs(hz.real()) <= band->high + slack;
+  bool has(Complex hz, double bound) const {
+    return band ? belongs_to(*band, hz, bound) : std::abs(hz - centre) <= radius;
   }
 };
 
@@ -61,9 +58,9 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
   EigenSolution out;
   for (std::size_t k = 0; k < all.modes.size(); ++k) {
     const EigenMode& m = all.modes[k];
-    const bool inside = region.has(m.eigenvalue_hz);
+    const bool inside = region.has(m.eigenvalue_hz, m.error_bound_hz);
     selected.found += inside;
-    if (!m.is_real) selected.found += region.has(std::conj(m.eigenvalue_hz));
+    if (!m.is_real) selected.found += region.has(std::conj(m.eigenvalue_hz), m.error_bound_hz);
     if (!inside && !m.structural_zero) continue;
     chosen.push_back(static_cast<Eigen::Index>(k));
     out.modes.push_back(m);

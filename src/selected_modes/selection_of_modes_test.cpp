@@ -68,15 +68,27 @@ TEST(SelectionOfModes, takes_what_is_there_where_more_is_asked_for) {
   EXPECT_EQ(none.selected->found, 0u);
 }
 
+// Values belong to it that may be inside within their bounds, and no others.
 TEST(SelectionOfModes, takes_a_band_with_its_borders) {
-  const EigenSolution low = selected_of(all_modes(), ModesInBand{0, 2});
+  EigenSolution all = all_modes();
+  for (const std::size_t k : {5u, 6u}) all.modes[k].error_bound_hz = 1e-14;
+  all.modes[7] = mode(0, 2 + 1e-10), all.modes[7].error_bound_hz = 1e-13;
+  EXPECT_EQ(taken(selected_of(all, ModesInBand{0, 2})), (std::vector<int>{0, 1, 2, 4, 5, 6}));
+  EXPECT_EQ(taken(selected_of(all, ModesInBand{2 + 1e-10 + 5e-14, 3})), (std::vector<int>{0, 1, 7}));
+  EXPECT_EQ(selected_of(all, ModesInBand{2 + 1e-10 + 5e-14, 3}).selected->found, 2u);
+}
+
+TEST(SelectionOfModes, takes_a_band_with_all_of_an_equal_value_at_its_border) {
+  EigenSolution all = all_modes();
+  for (EigenMode& m : all.modes) m.error_bound_hz = m.structural_zero ? 0 : 1e-14;
+  const EigenSolution low = selected_of(all, ModesInBand{0, 2});
   EXPECT_EQ(taken(low), (std::vector<int>{0, 1, 2, 4, 5, 6, 7}));
   EXPECT_EQ(low.selected->found, 2u + 1u + 2u * 4u);
   EXPECT_EQ(low.selected->radius_hz, 0);
-  EXPECT_EQ(taken(selected_of(all_modes(), ModesInBand{2, 4})), (std::vector<int>{0, 1, 5, 6, 7, 8}));
-  EXPECT_EQ(selected_of(all_modes(), ModesInBand{2, 4}).selected->found, 8u);  // no zeros in it
-  EXPECT_EQ(taken(selected_of(all_modes(), ModesInBand{0, 6})), (std::vector<int>{0, 1, 2, 4, 5, 6, 7, 8}));
-  EXPECT_EQ(taken(selected_of(all_modes(), ModesInBand{5, 7})), (std::vector<int>{0, 1}));
+  EXPECT_EQ(taken(selected_of(all, ModesInBand{2, 4})), (std::vector<int>{0, 1, 5, 6, 7, 8}));
+  EXPECT_EQ(selected_of(all, ModesInBand{2, 4}).selected->found, 8u);  // no zeros in it
+  EXPECT_EQ(taken(selected_of(all, ModesInBand{0, 6})), (std::vector<int>{0, 1, 2, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(taken(selected_of(all, ModesInBand{5, 7})), (std::vector<int>{0, 1}));
 }
 
 TEST(SelectionOfModes, leaves_out_strong_damping_beyond_the_band) {

@@ -320,8 +320,21 @@ class PencilMeasurement {
         size_of_left = left_sizes(op_, of_, left_.of_states);
       }
     });
-    const double amplified = 1 + margin_of_norms * reach * std::max(beside, 1 / distance);
+    const double amplified = 1 + margin_of_norms * reach * std::max(beside, largest_condition() / distance);
     out_.uncertainty += between_ + reach * amplified * size_of_left * size_of_right_.transpose();
+  }
+
+  // 1/distance is the resolvent of a normal matrix. The units of the operator are those of modes near its shift: of far
+  // lower ones rates and positions are so unlike in them that a pair of others, or a zero in a chain, makes more of
+  // what it is given, by no more than the condition of the modes in the subspace.
+  double largest_condition() const {
+    const Eigen::VectorXd& unit = op_.units();
+    double largest = 1;
+    for (Index j = 0; j < p_; ++j) {
+      const double of_right = of_.X.col(j).cwiseQuotient(unit).norm(), of_left = of_.Y.col(j).cwiseProduct(unit).norm();
+      largest = std::max(largest, of_right * of_left);
+    }
+    return largest;
   }
 
   const Phased& as_;
