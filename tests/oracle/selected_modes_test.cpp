@@ -109,8 +109,9 @@ TEST_P(SelectedModesOfMechanisms, are_those_of_the_full_solution) {
       doubted += !found->selected->complete;
     }
   }
-  // Where bounds leave open what is a zero all modes tell, and where vectors are not exact they have better ones.
-  EXPECT_GE(counted, 0.85 * tried) << "the full solution stands in for few";
+  // Where bounds leave open what is a zero all modes tell, and where vectors or values are not exact they have better
+  // ones. Of ten mechanisms more may be of that kind than of thirty.
+  EXPECT_GE(counted, draws(0.85, 0.75) * tried) << "the full solution stands in for few";
   EXPECT_LE(doubted, 0.05 * tried);
 }
 INSTANTIATE_TEST_SUITE_P(generated, SelectedModesOfMechanisms, ::testing::Range<std::uint64_t>(1, 221, 30));
