@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "eigenvalues/balancing.h"
 #include "eigenvalues/clustered_schur.h"
 #include "eigenvalues/disc_vectors.h"
 #include "eigenvalues/index.h"
@@ -113,22 +114,8 @@ class Inclusion {
     for (Index j = 0; j < blocks(); ++j) {
       const Index begin = first(j), k = size(j);
       if (k == 1) continue;
-      Matrix B = sizes(block(j)) + error.block(begin, begin, k, k);
-      B.diagonal().setZero();
-      for (int round = 0; round < 100; ++round) {
-        bool changed = false;
-        for (Index a = 0; a < k; ++a) {
-          const double of_row = B.row(a).norm(), of_column = B.col(a).norm();
-          if (!(of_row > 0 && of_column > 0)) continue;
-          const int exponent = static_cast<int>(std::lround(std::log2(of_row / of_column) / 2));
-          if (exponent == 0) continue;
-          const double f = std::ldexp(1.0, exponent);
-          B.col(a) *= f, B.row(a) /= f;
-          block_scale_(begin + a) *= f;
-          changed = true;
-        }
-        if (!changed) break;
-      }
+      const std::vector<int> power = balancing_powers(sizes(block(j)) + error.block(begin, begin, k, k));
+      for (Index a = 0; a < k; ++a) block_scale_(begin + a) = std::ldexp(1.0, power[at(a)]);
     }
     const Eigen::VectorXd reciprocal = block_scale_.cwiseInverse();
     error = reciprocal.asDiagonal() * error * block_scale_.asDiagonal();

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/dense_products.h"
 #include "base/dense_solvers.h"
+#include "eigenvalues/balancing.h"
 #include "eigenvalues/dual_vectors.h"
 #include "eigenvalues/eigen_residuals.h"
 #include "eigenvalues/index.h"
@@ -104,22 +106,7 @@ void balance(const Parallel& group, const EigenResiduals& residuals, int most, E
       if (a != b) coupling(a, b) = std::abs(residuals.g({i, false}, {j, false})) + residuals.floor(i, j);
     }
   }
-  std::vector<int> power(at(k), 0);
-  constexpr int most_rounds = 100;
-  bool changed = true;
-  for (int round = 0; changed && round < most_rounds; ++round) {
-    changed = false;
-    for (Index a = 0; a < k; ++a) {
-      const double of_row = coupling.row(a).norm(), of_column = coupling.col(a).norm();
-      if (!(of_row > 0 && of_column > 0)) continue;
-      const int exponent = static_cast<int>(std::lround(std::log2(of_row / of_column) / 2));
-      if (exponent == 0) continue;
-      const double f = std::ldexp(1.0, exponent);
-      coupling.col(a) *= f, coupling.row(a) /= f;
-      power[at(a)] += exponent;
-      changed = true;
-    }
-  }
+  const std::vector<int> power = balancing_powers(std::move(coupling));
   const auto [least, largest] = std::ranges::minmax(power);
   const double share = std::min(1.0, most / std::max(1.0, static_cast<double>(largest - least)));
   for (Index a = 0; a < k; ++a) {
