@@ -84,9 +84,8 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, Partials wanted) 
   return out;
 }
 
-void note_law(const PairMotion& p, const RelativeWrench& w, const std::array<double, 6>& rounding, Equations& eq) {
-  ElementTrace* const trace = eq.noted();
-  if (!trace) return;
+void note_law(const PairMotion& p, const RelativeWrench& w, const std::array<double, 6>& rounding, const Layout& layout,
+              ElementTrace& trace) {
   RelativeWrench law = w;
   for (std::size_t k = 0; k < 3; ++k) {
     if (std::abs(law.force[k]) <= rounding[k]) law.force[k] = 0;
@@ -99,12 +98,12 @@ void note_law(const PairMotion& p, const RelativeWrench& w, const std::array<dou
   // A turn of the axes of J, δφ_J, takes the wrench along.
   own.force_on_position.axes_J -= skew(law.force) * back;
   own.torque_on_position.axes_J -= skew(law.torque) * back;
-  ElementTrace::Law& noted = trace->laws.emplace_back();
-  noted.element = trace->elements.size() - 1;
+  ElementTrace::Law& noted = trace.laws.emplace_back();
+  noted.element = trace.elements.size() - 1;
   noted.axes = R;
   noted.origin = p.motion->body(p.body_I).r + value(p.arm_I);
   noted.force = R * law.force, noted.torque = R * law.torque;
-  for_each_block(p, eq.layout(), [&](const PairBlock& b) {
+  for_each_block(p, layout, [&](const PairBlock& b) {
     BlockPartials by = partials_by(b, own);
     // About the point where the origin of I was: δp_I × F.
     if (!b.of_J) by.torque -= skew(law.force) * (back * b.moves);

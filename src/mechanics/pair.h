@@ -59,9 +59,10 @@ struct RelativeWrench {
   Levers levers;
 };
 PairForce spread(const PairMotion&, const RelativeWrench&, Partials wanted);
-// Where single elements are noted, what the law of one says in its own axes. Forces and torques up to `rounding` are
+// What the law of the element that is being noted says in its own axes. Forces and torques up to `rounding` are
 // nothing.
-void note_law(const PairMotion&, const RelativeWrench&, const std::array<double, 6>& rounding, Equations&);
+void note_law(const PairMotion&, const RelativeWrench&, const std::array<double, 6>& rounding, const Layout&,
+              ElementTrace&);
 
 // A force of magnitude F along the line from J to I and its slopes in distance d and rate d′.
 struct LineMagnitude {

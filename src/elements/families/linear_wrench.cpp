@@ -129,21 +129,14 @@ LinearWrenchKernel::LinearWrenchKernel(const std::vector<LinearWrench>& laws, co
   }
 }
 
-LinearWrenchKernel::Given LinearWrenchKernel::law_of(const Placed& p, const PairMotion& pair, const Motion& motion,
-                                                     Partials wanted) {
-  constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
+RelativeWrench LinearWrenchKernel::law_of(const Placed& p, const PairMotion& pair, const Motion& motion,
+                                          Partials wanted) {
   const RelativeDisplacement d = relative_displacement(pair, p.angles);
-  // What displacements are differences of.
-  const double far = norm(motion.body(pair.body_I).r) + norm(motion.body(pair.body_J).r) + norm(value(pair.arm_I)) +
-                     norm(value(pair.arm_J));
-  Given given{};
-  RelativeWrench& w = given.wrench;
+  RelativeWrench w;
   w.depends_on_rate = true;
   Array6 load = p.law->force;
   for (const auto& [r, c, K, C] : p.law->couplings) {
     load[r] -= K * (d.y[c] - p.law->length[c]) + C * d.rate[c];
-    given.rounding[r] +=
-        units_of_rounding * std::abs(K) * (std::abs(d.y[c]) + std::abs(p.law->length[c]) + (c < 3 ? far : 1.0));
     for (std::size_t k = 0; k < 6; ++k) {
       w.on_pose[r][k] -= K * d.on_pose[c][k] + C * d.rate_on_pose[c][k];
       w.on_rate[r][k] -= C * d.rate_on_rate[c][k];
@@ -152,7 +145,21 @@ LinearWrenchKernel::Given LinearWrenchKernel::law_of(const Placed& p, const Pair
   if (p.law->routine) add_routine(*p.law, d, motion, wanted, load, w);
   w.force = {load[0], load[1], load[2]};
   w.torque = {load[3], load[4], load[5]};
-  return given;
+  return w;
+}
+
+Array6 LinearWrenchKernel::rounding_of(const Placed& p, const PairMotion& pair, const Motion& motion) {
+  constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
+  const Array6 y = relative_displacement(pair, p.angles).y;
+  // What displacements are differences of.
+  const double far = norm(motion.body(pair.body_I).r) + norm(motion.body(pair.body_J).r) + norm(value(pair.arm_I)) +
+                     norm(value(pair.arm_J));
+  Array6 rounding{};
+  for (const auto& [r, c, K, C] : p.law->couplings) {
+    rounding[r] +=
+        units_of_rounding * std::abs(K) * (std::abs(y[c]) + std::abs(p.law->length[c]) + (c < 3 ? far : 1.0));
+  }
+  return rounding;
 }
 
 void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
@@ -160,15 +167,15 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
     const Placed& p = laws_[k];
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
-    const auto [law, rounding] = law_of(p, pair, motion, eq.wanted_partials());
-    note_law(pair, law, rounding, eq);
+    const RelativeWrench law = law_of(p, pair, motion, eq.wanted_partials());
+    if (ElementTrace* trace = eq.noted()) note_law(pair, law, rounding_of(p, pair, motion), eq.layout(), *trace);
     apply(pair, spread(pair, law, eq.wanted_partials()), eq);
   }
 }
 
 void LinearWrenchKernel::wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const {
   out.pair = pair_motion(motion, *laws_[k].I, *laws_[k].J);
-  out.force = spread(out.pair, law_of(laws_[k], out.pair, motion, wanted).wrench, wanted);
+  out.force = spread(out.pair, law_of(laws_[k], out.pair, motion, wanted), wanted);
 }
 
 void LinearWrenchKernel::undefined_values(const Motion& motion, UndefinedValues& undefined) const {

@@ -72,11 +72,8 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
     const MarkerPlace *I, *J;  // of the layout
     CountedAngles angles;
   };
-  struct Given {
-    RelativeWrench wrench;
-    Array6 rounding;  // of forces and torques
-  };
-  static Given law_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
+  static RelativeWrench law_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
+  static Array6 rounding_of(const Placed&, const PairMotion&, const Motion&);  // of forces and torques
   std::vector<Placed> laws_;
   const std::vector<ElementLabel>* labels_;
 };
