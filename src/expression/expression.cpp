@@ -62,11 +62,9 @@ Expression routine_expression(std::vector<Atom> inputs, std::shared_ptr<const Ro
   return ExpressionParser::of_routine(std::move(inputs), std::move(routine), which, at);
 }
 
-Atom AtomOfProgram::operator()(std::uint32_t number) const { return program->atom(number); }
+Atom AtomList::Iterator::operator*() const { return program_->atom(number_); }
 
-AtomList Expression::atoms() const {
-  return {{std::uint32_t{0}, static_cast<std::uint32_t>(program_->atom_count())}, AtomOfProgram{program_.get()}};
-}
+AtomList Expression::atoms() const { return {*program_, program_->atom_count()}; }
 Span Expression::at() const { return program_->at(); }
 
 std::span<const SplineUse> Expression::splines() const { return program_->splines(); }

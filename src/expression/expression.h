@@ -7,11 +7,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -114,12 +115,47 @@ class ExpressionProgram;
 class ProgramShapes;
 struct ProgramDraft;
 
-// The atoms of an expression: programs keep them in less memory, so that each is made when it is asked for.
-struct AtomOfProgram {
-  const ExpressionProgram* program;
-  Atom operator()(std::uint32_t number) const;
+// The atoms of an expression: programs keep them in less memory, so that each is made when it is asked for. (What
+// std::views::transform and iota are together; clang 14 does not compile these.)
+class AtomList {
+ public:
+  class Iterator {
+   public:
+    using value_type = Atom;
+    using reference = Atom;
+    using pointer = void;
+    using difference_type = std::ptrdiff_t;
+    using iterator_category = std::input_iterator_tag;
+
+    Iterator() = default;
+    Atom operator*() const;
+    Iterator& operator++() {
+      ++number_;
+      return *this;
+    }
+    Iterator operator++(int) { return {program_, number_++}; }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    friend class AtomList;
+    Iterator(const ExpressionProgram* program, std::uint32_t number) : program_(program), number_(number) {}
+
+    const ExpressionProgram* program_ = nullptr;
+    std::uint32_t number_ = 0;
+  };
+
+  AtomList(const ExpressionProgram& program, std::size_t count)
+      : program_(&program), count_(static_cast<std::uint32_t>(count)) {}
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  Atom operator[](std::size_t k) const { return *Iterator(program_, static_cast<std::uint32_t>(k)); }
+  Iterator begin() const { return {program_, 0}; }
+  Iterator end() const { return {program_, count_}; }
+
+ private:
+  const ExpressionProgram* program_;
+  std::uint32_t count_;
 };
-using AtomList = std::ranges::transform_view<std::ranges::iota_view<std::uint32_t, std::uint32_t>, AtomOfProgram>;
 
 // Scratch memory of one evaluation; kept by the caller so that evaluation allocates nothing.
 template <class T>
