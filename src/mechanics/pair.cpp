@@ -84,37 +84,16 @@ PairForce spread(const PairMotion& p, const RelativeWrench& w, Partials wanted) 
   return out;
 }
 
-void note_law(const PairMotion& p, const RelativeWrench& w, const std::array<double, 6>& rounding, const Layout& layout,
-              ElementTrace& trace) {
-  RelativeWrench law = w;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (std::abs(law.force[k]) <= rounding[k]) law.force[k] = 0;
-    if (std::abs(law.torque[k]) <= rounding[3 + k]) law.torque[k] = 0;
-  }
-  const Matrix3 R = value(p.axes_J), back = transpose(R);
-  PairForce own;
-  own.depends_on_velocity = law.depends_on_rate;
-  add_law(p, law, Matrix3::identity(), own);
+PairForce along_axes_of_J(const PairMotion& p, const RelativeWrench& w) {
+  PairForce out;
+  out.force = w.force, out.torque = w.torque;
+  out.depends_on_velocity = w.depends_on_rate;
+  add_law(p, w, Matrix3::identity(), out);
   // A turn of the axes of J, δφ_J, takes the wrench along.
-  own.force_on_position.axes_J -= skew(law.force) * back;
-  own.torque_on_position.axes_J -= skew(law.torque) * back;
-  ElementTrace::Law& noted = trace.laws.emplace_back();
-  noted.element = trace.elements.size() - 1;
-  noted.axes = R;
-  noted.origin = p.motion->body(p.body_I).r + value(p.arm_I);
-  noted.force = R * law.force, noted.torque = R * law.torque;
-  for_each_block(p, layout, [&](const PairBlock& b) {
-    BlockPartials by = partials_by(b, own);
-    // About the point where the origin of I was: δp_I × F.
-    if (!b.of_J) by.torque -= skew(law.force) * (back * b.moves);
-    const auto add = [&](PartialBy family, const Matrix3& F, const Matrix3& T) {
-      for (std::size_t c = 0; c < b.count; ++c)
-        noted.partials.push_back(
-            {family, b.column + static_cast<std::int32_t>(c), {F[c].x, F[c].y, F[c].z, T[c].x, T[c].y, T[c].z}});
-    };
-    add(PartialBy::position, by.force, by.torque);
-    if (own.depends_on_velocity) add(PartialBy::damping, by.force_by_rate, by.torque_by_rate);
-  });
+  const Matrix3 back = transpose(value(p.axes_J));
+  out.force_on_position.axes_J -= skew(w.force) * back;
+  out.torque_on_position.axes_J -= skew(w.torque) * back;
+  return out;
 }
 
 PairForce along_line(const PairMotion& p, const LineMagnitude& F, Partials wanted) {

@@ -59,10 +59,8 @@ struct RelativeWrench {
   Levers levers;
 };
 PairForce spread(const PairMotion&, const RelativeWrench&, Partials wanted);
-// What the law of the element that is being noted says in its own axes. Forces and torques up to `rounding` are
-// nothing.
-void note_law(const PairMotion&, const RelativeWrench&, const std::array<double, 6>& rounding, const Layout&,
-              ElementTrace&);
+// The same along the axes of J as they are, with all partials.
+PairForce along_axes_of_J(const PairMotion&, const RelativeWrench&);
 
 // A force of magnitude F along the line from J to I and its slopes in distance d and rate d′.
 struct LineMagnitude {

@@ -123,6 +123,39 @@ TEST_F(StructuralZeros, a_soft_direction_beside_a_stiff_one_of_the_same_element_
   }
 }
 
+// What stiff springs bear holds what is between them across their line, however little that is beside their stiffness;
+// at their free length they bear nothing, wherever that is.
+TEST_F(StructuralZeros, what_a_stiff_string_bears_beside_its_stiffness_is_none) {
+  const auto string = [](const std::array<double, 3>& u, double preload, bool one_side) {
+    const double length = std::hypot(u[0], u[1], u[2]);
+    std::string s = fmt::format(
+        "String\nPART/1, GROUND\nMARKER/1\nMARKER/3, QP={:.17g},{:.17g},{:.17g}\n"
+        "POINT_MASS/2, MASS=1, CM=20, QG={:.17g},{:.17g},{:.17g}\nMARKER/20\n",
+        2 * u[0], 2 * u[1], 2 * u[2], u[0], u[1], u[2]);
+    for (const int to : {1, 3}) {
+      if (to == 3 && one_side) continue;
+      s += fmt::format("SPRINGDAMPER/{0}, TRANSLATION, I=20, J={0}, K=1E14, LENGTH={1:.17g}, FORCE={2}\n", to, length,
+                       preload);
+    }
+    return s + "END\n";
+  };
+  for (const std::array<double, 3>& u :
+       {std::array{1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.6, 0.8, 0.0}, {0.3, 0.7, 0.4}}) {
+    for (const bool one_side : {false, true}) {
+      EXPECT_EQ(zeros(solve(string(u, 0, one_side))), 4u) << u[0] << one_side;
+      for (const double preload : {-0.5, -1e-3}) {
+        // Unbalanced, and no more than what rounding of the length makes of the stiffness.
+        if (one_side && preload > -0.5) continue;
+        const auto modes = solve(string(u, preload, one_side));
+        EXPECT_EQ(zeros(modes), 0u) << preload << " " << u[0] << one_side;
+        const double across = std::sqrt(-preload * (one_side ? 1 : 2) / std::hypot(u[0], u[1], u[2]));
+        const auto holds = [&](const Mode& m) { return std::abs(m.value - std::complex(0.0, across)) <= m.bound; };
+        EXPECT_GE(std::ranges::count_if(modes, holds), 2) << preload << " " << u[0] << one_side;
+      }
+    }
+  }
+}
+
 // A bushing that is the same all round lets its own axes spin, whatever it bears and however stiff it is along them.
 TEST_F(StructuralZeros, a_loaded_bushing_that_is_the_same_all_round_lets_its_axes_spin) {
   for (const char* const axes : {"", ", REULER=0.3,0.7,0.4"}) {

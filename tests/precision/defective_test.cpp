@@ -17,13 +17,8 @@
 namespace dynalin::precision::defective_test {
 namespace {
 
-// Eigenvalues of A as assembled; a cluster of k that rounding has spread over 1e-16^(1/k) has conditions of about the
-// same inverse, so that 100 digits leave more than 60 of them.
-using Long = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
-using LongDense = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
-struct Exact {
-  Long re, im;
-};
+using Long = Finer;
+using Exact = FinerValue;
 using Integers = Eigen::MatrixXd;  // of entries that are exact
 using Random = std::mt19937_64;
 
@@ -225,17 +220,9 @@ Drawn lags(Random& random) {
 }
 
 std::vector<Exact> exact_values(const Drawn& drawn, const PerturbationEquations& equations) {
+  if (!drawn.spectrum) return finer_eigenvalues(equations);
   std::vector<Exact> out;
-  if (drawn.spectrum) {
-    for (const auto& v : *drawn.spectrum) out.push_back({Long(v.real()), Long(v.imag())});
-    return out;
-  }
-  const LongDense A = state_matrix<Long>(equations);
-  Eigen::EigenSolver<LongDense> solver(A, false);
-  if (solver.info() != Eigen::Success) solver.compute(A.transpose(), false);
-  if (solver.info() != Eigen::Success) return {};
-  for (Eigen::Index k = 0; k < A.rows(); ++k)
-    out.push_back({solver.eigenvalues()(k).real(), solver.eigenvalues()(k).imag()});
+  for (const auto& v : *drawn.spectrum) out.push_back({Long(v.real()), Long(v.imag())});
   return out;
 }
 

@@ -1,13 +1,18 @@
 // One scalar law along the line between two markers, or about the z axis of J.
 //
 // line_force: a member gives `S along_line(const TimeTaylor<S>& d)`, the force as a law of the distance and its
-// rate; positive pushes I away from J, and says with `bool needs_direction()` whether it is anything but a multiple of
-// the distance. axis_torque: a member gives `S about_axis(const S& angle, const S& rate)`, the
-// torque on I about z_J as a law of AZ(I,J), whole turns counted, and WZ(I,J,J), and says with `bool reads_angle()`
-// whether the angle has a factor in it: AZ does not exist everywhere, and is not evaluated if it has none.
+// rate; positive pushes I away from J, says with `bool needs_direction()` whether it is anything but a multiple of the
+// distance, and with `double stated_force()` what of it comes of neither. axis_torque: a member gives `S
+// about_axis(const S& angle, const S& rate)`, the torque on I about z_J as a law of AZ(I,J), whole turns counted, and
+// WZ(I,J,J), and says with `bool reads_angle()` whether the angle has a factor in it: AZ does not exist everywhere, and
+// is not evaluated if it has none.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -16,6 +21,7 @@
 #include "elements/families/markers.h"
 #include "elements/families/read_displacement.h"
 #include "mechanics/kernel.h"
+#include "mechanics/noted_laws.h"
 #include "mechanics/path.h"
 #include "mechanics/wrench_source.h"
 #include "model/schema.h"
@@ -36,6 +42,7 @@ class LineForceKernel final : public Kernel, public WrenchSource {
       const Force& f = forces_[k];
       const PairMotion pair = pair_motion(motion, f.I, f.J);
       eq.begin_element((*labels_)[k]);
+      if (ElementTrace* trace = eq.noted()) note(f, pair, eq.layout(), *trace);
       apply(pair, force_of(f, pair, eq.wanted_partials()), eq);
     }
   }
@@ -79,6 +86,13 @@ class LineForceKernel final : public Kernel, public WrenchSource {
     const Taylor d = norm(pair.delta);
     return along_line(pair, law(f, d.value, d.rate), wanted);
   }
+  static void note(const Force& f, const PairMotion& pair, const Layout& layout, ElementTrace& trace) {
+    if (markers_meet(pair)) return;
+    const Taylor d = norm(pair.delta);
+    const LineMagnitude F = law(f, d.value, d.rate);
+    const double rounding = std::abs(F.on_distance) * (d.value + lengths_of_places(pair));
+    note_line(pair, F, rounding_of_force(rounding, f.element.stated_force()), layout, trace);
+  }
   std::vector<Force> forces_;
   const std::vector<ElementLabel>* labels_;
 };
@@ -101,7 +115,9 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       const Torque& t = torques_[k];
       const PairMotion pair = pair_motion(motion, t.I, t.J);
       eq.begin_element((*labels_)[k]);
-      apply(pair, torque_of(t, pair, motion, eq.wanted_partials()), eq);
+      const RelativeWrench law = law_of(t, pair, motion);
+      if (ElementTrace* trace = eq.noted()) note(t, pair, law, eq.layout(), *trace);
+      apply(pair, torque_of(pair, law, eq.wanted_partials()), eq);
     }
   }
 
@@ -110,7 +126,7 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
   MarkerId marker_J(std::size_t k) const override { return torques_[k].element.j; }
   void wrench(const Motion& motion, std::size_t k, Partials wanted, MarkerWrench& out) const override {
     out.pair = pair_motion(motion, torques_[k].I, torques_[k].J);
-    out.force = torque_of(torques_[k], out.pair, motion, wanted);
+    out.force = torque_of(out.pair, law_of(torques_[k], out.pair, motion), wanted);
   }
   void undefined_values(const Motion& motion, UndefinedValues& undefined) const override {
     for (std::size_t k = 0; k < torques_.size(); ++k) {
@@ -126,7 +142,7 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
     MarkerPlace I, J;
     CountedAngles angles;
   };
-  static PairForce torque_of(const Torque& t, const PairMotion& pair, const Motion& motion, Partials wanted) {
+  static RelativeWrench law_of(const Torque& t, const PairMotion& pair, const Motion& motion) {
     const auto I = path::seeded<12>(pair.relative);
     Dual<12> angle(0.0);
     if (constexpr std::size_t AZ = 2; t.angles.read()[AZ]) {
@@ -144,9 +160,22 @@ class AxisTorqueKernel final : public Kernel, public WrenchSource {
       w.on_pose[5][k] = torque.partial[k];
       w.on_rate[5][k] = torque.partial[6 + k];
     }
+    return w;
+  }
+  static PairForce torque_of(const PairMotion& pair, const RelativeWrench& w, Partials wanted) {
     PairForce force = spread(pair, w, wanted);
     force.components = Components::torque;
     return force;
+  }
+  static void note(const Torque& t, const PairMotion& pair, const RelativeWrench& w, const Layout& layout,
+                   ElementTrace& trace) {
+    const double stated = t.element.stated_torque();
+    double stiffness = 0;
+    for (std::size_t k = 3; k < 6; ++k) stiffness = std::max(stiffness, std::abs(w.on_pose[5][k]));
+    // By as far as it is turned, and by a turn.
+    std::array<double, 6> rounding{};
+    rounding[5] = rounding_of_force(std::abs(w.torque.z - stated) + 2 * std::numbers::pi * stiffness, stated);
+    note_law(pair, w, rounding, layout, trace);
   }
   std::vector<Torque> torques_;
   const std::vector<ElementLabel>* labels_;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "elements/families/common_frame.h"
+#include "mechanics/noted_laws.h"
 
 namespace dynalin {
 
@@ -148,17 +148,13 @@ RelativeWrench LinearWrenchKernel::law_of(const Placed& p, const PairMotion& pai
   return w;
 }
 
-Array6 LinearWrenchKernel::rounding_of(const Placed& p, const PairMotion& pair, const Motion& motion) {
-  constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
+Array6 LinearWrenchKernel::rounding_of(const Placed& p, const PairMotion& pair) {
   const Array6 y = relative_displacement(pair, p.angles).y;
-  // What displacements are differences of.
-  const double far = norm(motion.body(pair.body_I).r) + norm(motion.body(pair.body_J).r) + norm(value(pair.arm_I)) +
-                     norm(value(pair.arm_J));
+  const double far = lengths_of_places(pair);
   Array6 rounding{};
-  for (const auto& [r, c, K, C] : p.law->couplings) {
-    rounding[r] +=
-        units_of_rounding * std::abs(K) * (std::abs(y[c]) + std::abs(p.law->length[c]) + (c < 3 ? far : 1.0));
-  }
+  for (const auto& [r, c, K, C] : p.law->couplings)
+    rounding[r] += std::abs(K) * (std::abs(y[c]) + std::abs(p.law->length[c]) + (c < 3 ? far : 1.0));
+  for (std::size_t r = 0; r < 6; ++r) rounding[r] = rounding_of_force(rounding[r], p.law->force[r]);
   return rounding;
 }
 
@@ -168,7 +164,7 @@ void LinearWrenchKernel::equations(const Motion& motion, Equations& eq) const {
     eq.begin_element((*labels_)[k]);
     const PairMotion pair = pair_motion(motion, *p.I, *p.J);
     const RelativeWrench law = law_of(p, pair, motion, eq.wanted_partials());
-    if (ElementTrace* trace = eq.noted()) note_law(pair, law, rounding_of(p, pair, motion), eq.layout(), *trace);
+    if (ElementTrace* trace = eq.noted()) note_law(pair, law, rounding_of(p, pair), eq.layout(), *trace);
     apply(pair, spread(pair, law, eq.wanted_partials()), eq);
   }
 }

@@ -73,7 +73,7 @@ class LinearWrenchKernel final : public Kernel, public WrenchSource {
     CountedAngles angles;
   };
   static RelativeWrench law_of(const Placed&, const PairMotion&, const Motion&, Partials wanted);
-  static Array6 rounding_of(const Placed&, const PairMotion&, const Motion&);  // of forces and torques
+  static Array6 rounding_of(const Placed&, const PairMotion&);  // of forces and torques
   std::vector<Placed> laws_;
   const std::vector<ElementLabel>* labels_;
 };

@@ -47,6 +47,7 @@ struct RotationalSpringDamper {
       {.name = "FORCE", .slot = &RotationalSpringDamper::elsewhere, .help = "goes with TRANSLATIONAL"},
   }};
 
+  double stated_torque() const { return preload; }
   bool reads_angle() const { return stiffness != 0; }
   template <class S>
   S about_axis(const S& angle, const S& rate) const {

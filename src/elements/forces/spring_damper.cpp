@@ -43,6 +43,7 @@ struct SpringDamper {
   }};
 
   bool needs_direction() const { return damping != 0 || preload + stiffness * free_length != 0; }
+  double stated_force() const { return preload; }
   template <class S>
   S along_line(const TimeTaylor<S>& d) const {
     return preload - stiffness * (d.value - free_length) - damping * d.rate;
