@@ -216,7 +216,7 @@ std::vector<std::string_view> names_within(const std::string& name) {
     names.insert(names.end(), command.classes.begin(), command.classes.end());
   }
   std::ranges::sort(names);  // one of several types is no tie
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 

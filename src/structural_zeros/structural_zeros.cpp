@@ -66,12 +66,13 @@ class StructuralZeros::Contributions {
     const auto size = static_cast<std::size_t>(eq.size());
     // What each equation reads: the equations of unknowns and states.
     std::vector<std::vector<std::int32_t>> reads(size);
-    for (const auto& [family, first] : {std::pair{PartialBy::algebraic, n_}, std::pair{PartialBy::state, n_ + w_},
-                                        std::pair{PartialBy::state_rate, n_ + w_}}) {
+    const auto add_reads = [&](PartialBy family, std::int32_t first) {
       for_each_entry(eq.matrix(family), [&](std::int32_t r, std::int32_t c, double v) {
         if (v != 0.0) reads[static_cast<std::size_t>(r)].push_back(first + c);
       });
-    }
+    };
+    add_reads(PartialBy::algebraic, n_);
+    add_reads(PartialBy::state, n_ + w_), add_reads(PartialBy::state_rate, n_ + w_);
     std::vector<bool> acts(size, false);  // equations that bodies depend on
     std::vector<std::int32_t> open;
     for (std::int32_t r = 0; r < n_; ++r) {
