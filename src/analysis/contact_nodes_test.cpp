@@ -98,7 +98,7 @@ TEST(ContactOfNodes, one_shape_is_on_one_node) {
         Drawing{"PLATE", "PLATE, MARKERS=22,21,25, THICKNESS=.05", "PLATE, MARKERS=22,23,25, THICKNESS=.05"},
         Drawing{"OUTLINE", "OUTLINE=22,21,25,22", "OUTLINE=22,26,25,22", true}}) {
     for (const bool flexible : {true, false}) {
-      const auto with = [&, &name = name, &is_curve = is_curve](const std::string& drawing) {
+      const auto with = [&, &is_curve = is_curve](const std::string& drawing) {
         const std::string on = flexible ? "FLEX_BODY=2, NODE_ID=2" : "FE_PART=2, NODE_LABEL=3";
         // From the node of the flexible body, of the BCS of the beam.
         const std::string x = flexible ? ".2" : "1.2";

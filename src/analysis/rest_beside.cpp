@@ -17,7 +17,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 constexpr int most_steps = 30;
-constexpr double dependent = 1e-9;        // of motions of unit size
+constexpr double too_dependent = 1e-9;    // of motions of unit size
 constexpr double free_state_hold = 1e-3;  // in comparable units: each step leaves as much of what it should take away
 constexpr double settled = 1e-9;  // of the size of an unknown: steps that become no smaller are rounding from here on
 
@@ -67,7 +67,7 @@ std::optional<OperatingPoint> rest_beside(const System& system, OperatingPoint o
   const std::int32_t n = system.layout().coordinate_count;
   Eigen::VectorXd size(n);
   for (std::int32_t k = 0; k < n; ++k) size(k) = system.coordinate_scale(k);
-  const Matrix B = size.cwiseAbs2().cwiseInverse().asDiagonal() * basis_of_motions(kept, size, dependent);
+  const Matrix B = size.cwiseAbs2().cwiseInverse().asDiagonal() * basis_of_motions(kept, size, too_dependent);
   double hold_states = 0, before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps; ++k) {
     settle(equations, op);

@@ -32,7 +32,7 @@ TEST_F(GconVariables, count_with_what_they_stand_for) {
     EXPECT_EQ(read.eigenvalues(0), spelled_out.eigenvalues(0));
     EXPECT_EQ(read.result(0).at("operating_point").at("constraints"),
               spelled_out.result(0).at("operating_point").at("constraints"));
-    for (const std::size_t c : {0, 1, 2}) {
+    for (std::size_t c = 0; c < 3; ++c) {
       const auto place = [&](const RunResult& r) {
         return r.result(1).at("operating_point").at("bodies").at(0).at("position").at(c).get<double>();
       };

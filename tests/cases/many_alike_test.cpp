@@ -155,7 +155,7 @@ TEST_F(ManyAlike, tables_share_out_no_rounding) {
     if (table.at("table") != "EFFECTIVE_MASS") continue;
     const auto& values = table.at("rows").back().at("values");
     EXPECT_NEAR(values[2], 2, 1e-12);
-    for (const std::size_t direction : {0, 1, 5}) EXPECT_EQ(values[direction], 0.0) << direction;
+    for (const std::size_t direction : {0u, 1u, 5u}) EXPECT_EQ(values[direction], 0.0) << direction;
     return;
   }
   ADD_FAILURE() << "no effective masses";

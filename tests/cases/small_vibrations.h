@@ -34,7 +34,7 @@ class SmallVibrations {
   // them acts on I at rest. Forces over displacements, the units of mass, length and time of the bodies.
   void add_link(int I, int J, const Eigen::Vector3d& at, const Eigen::Matrix3d& axes, const Matrix6& stiffness,
                 const Matrix6& damping, const Eigen::Vector3d& force = Eigen::Vector3d::Zero()) {
-    links_.push_back({I, J, at, axes, stiffness, damping, force});
+    links_.push_back({{I, J, at, axes}, stiffness, damping, force});
   }
   // Leaves I a rotation about z of `axes` against J.
   void add_hinge(int I, int J, const Eigen::Vector3d& at, const Eigen::Matrix3d& axes) {

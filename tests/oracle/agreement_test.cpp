@@ -13,6 +13,7 @@
 #include "expression/vector_functions.h"
 #include "linear/linear_system.h"
 #include "model/routine_options.h"
+#include "oracle/generator.h"
 #include "oracle/model.h"
 #include "oracle/program_point.h"
 #include "places/draws.h"
