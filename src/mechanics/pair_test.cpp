@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "mechanics/noted_laws.h"
 #include "mechanics/pair_blocks.h"
 #include "mechanics/paths_test_support.h"
 
@@ -48,12 +49,15 @@ struct Wrench {
   Law force, torque;
   MarkerId i = I, j = J;
 
-  PairForce of(const Paths& p, Partials wanted = Partials::yes) const {
-    const PairMotion pair = motion(p);
+  RelativeWrench in_axes_of_J(const PairMotion& pair) const {
     RelativeWrench w;
     w.force = force.add_to(pair, 0, w);
     w.torque = torque.add_to(pair, 3, w);
-    return spread(pair, w, wanted);
+    return w;
+  }
+  PairForce of(const Paths& p, Partials wanted = Partials::yes) const {
+    const PairMotion pair = motion(p);
+    return spread(pair, in_axes_of_J(pair), wanted);
   }
   PairMotion motion(const Paths& p) const { return pair_motion(p.motion, p.layout.marker(i), p.layout.marker(j)); }
 };
@@ -150,9 +154,7 @@ TEST(Pair, a_wrench_without_rates_has_no_partials_by_velocity) {
   Paths p;
   Wrench w{Law::drawn(p), Law::drawn(p)};
   w.force.on_rate = w.force.on_w = w.torque.on_rate = w.torque.on_w = Matrix3{};
-  RelativeWrench r;
-  r.force = w.force.add_to(w.motion(p), 0, r);
-  r.torque = w.torque.add_to(w.motion(p), 3, r);
+  RelativeWrench r = w.in_axes_of_J(w.motion(p));
   r.depends_on_rate = false;
   const PairForce f = spread(w.motion(p), r, Partials::yes);
   EXPECT_FALSE(f.depends_on_velocity);
@@ -173,8 +175,10 @@ struct Line {
     return (m.origin(I) - m.origin(J)) / distance(m) * at(distance(m), m.rate(distance));
   }
   PairForce of(const PairMotion& pair, Partials wanted = Partials::yes) const {
-    const Taylor d = norm(pair.delta);
-    return along_line(pair, {at(d.value, d.rate), b + 2 * c * d.value + e * d.rate, e * d.value}, wanted);
+    return along_line(pair, magnitude(norm(pair.delta)), wanted);
+  }
+  LineMagnitude magnitude(const Taylor& d) const {
+    return {at(d.value, d.rate), b + 2 * c * d.value + e * d.rate, e * d.value};
   }
 };
 
@@ -441,6 +445,77 @@ TEST(Pair, partials_of_one_equation_reach_both_bodies) {
       return row.at(m);
     }))) << coordinate_name(p.layout, c);
   }
+}
+
+// What is noted of a force and torque on I: along axes that stay, about the point where the origin of I was.
+template <class Force, class Torque>
+void expect_noted(const Paths& p, const ElementTrace& trace, const Force& force, const Torque& torque) {
+  ASSERT_EQ(trace.laws.size(), 1u);
+  const ElementTrace::Law& law = trace.laws.front();
+  EXPECT_EQ(law.element, 0u);
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(agree(dot(law.axes[r], law.axes[c]), r == c ? 1 : 0));
+  }
+  const RealVector origin = p.now().origin(I);
+  expect_near(law.origin, origin, "origin");
+  expect_near(law.force, force(p.now()), "force");
+  expect_near(law.torque, torque(p.now()), "torque");
+  const RealMatrix back = transpose(real(law.axes));
+  for (const ElementTrace::Law::Partial& by : law.partials) {
+    const std::size_t level = by.family == PartialBy::damping ? 1 : 0;
+    const RealVector f = p.now().partial(by.column, level, [&](const Moment& m) { return back * force(m); });
+    const RealVector t = p.now().partial(
+        by.column, level, [&](const Moment& m) { return back * (torque(m) + cross(m.origin(I) - origin, force(m))); });
+    const std::string column = coordinate_name(p.layout, by.column, level);
+    for (std::size_t r = 0; r < 3; ++r) {
+      EXPECT_TRUE(agree(by.value[r], f[r])) << "force " << r << " by " << column;
+      EXPECT_TRUE(agree(by.value[3 + r], t[r])) << "torque " << r << " by " << column;
+    }
+  }
+}
+
+TEST(Pair, a_law_is_noted_in_axes_of_its_own) {
+  Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  ElementTrace trace;
+  for (const Line& line : {Line{}, Line{.e = 0}}) {
+    trace.clear();
+    note_line(pair, line.magnitude(norm(pair.delta)), 0, p.layout, trace);
+    expect_noted(
+        p, trace, [&](const Moment& m) { return line.along(m); }, [](const Moment&) { return RealVector{}; });
+    EXPECT_EQ(trace.laws.front().partials.size(), line.e != 0 ? 36u : 18u);
+    EXPECT_TRUE(agree(norm(cross(trace.laws.front().axes.x, value(pair.delta))), 0)) << "the first is the line";
+  }
+  const Wrench w{Law::drawn(p), Law::drawn(p)};
+  trace.clear();
+  note_law(pair, w.in_axes_of_J(pair), {}, p.layout, trace);
+  expect_noted(
+      p, trace, [&](const Moment& m) { return w.force.at(m, I, J); },
+      [&](const Moment& m) { return w.torque.at(m, I, J); });
+  EXPECT_EQ(trace.laws.front().partials.size(), 36u);
+}
+
+TEST(Pair, a_force_that_is_rounding_is_noted_as_none) {
+  const Paths p;
+  const PairMotion pair = pair_motion(p.motion, p.layout.marker(I), p.layout.marker(J));
+  ElementTrace trace;
+  trace.clear();
+  RelativeWrench w;
+  w.force = {1e-9, -2e-9, 3e-9}, w.torque = {-1e-9, 2e-9, 3e-9};
+  note_law(pair, w, {1e-9, 1e-9, 5e-9, 0, 2e-9, 2e-9}, p.layout, trace);
+  const Matrix3 R = value(pair.axes_J);
+  expect_near(trace.laws[0].force, real(R * Vector{0, -2e-9, 0}), "force");
+  expect_near(trace.laws[0].torque, real(R * Vector{-1e-9, 0, 3e-9}), "torque");
+  for (const double magnitude : {1e-9, -1e-9, 1.1e-9}) {
+    trace.clear();
+    note_line(pair, {magnitude, -5, 0}, 1e-9, p.layout, trace);
+    EXPECT_EQ(norm(trace.laws[0].force) == 0, std::abs(magnitude) <= 1e-9) << magnitude;
+  }
+
+  const double rounding = rounding_of_force(1e14, 0);
+  EXPECT_NEAR(rounding, 0.178, 0.001);
+  EXPECT_EQ(rounding_of_force(1e14, 0.2), rounding);
+  EXPECT_EQ(rounding_of_force(1e14, -0.1), 0) << "stated, and as small";
 }
 
 }  // namespace
