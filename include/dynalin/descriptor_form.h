@@ -18,6 +18,7 @@ struct DescriptorForm {
   std::vector<ChannelLabel> inputs, outputs;
   std::int64_t pinput = 0, poutput = 0, rm = 0, pstate = 0;  // ids as in StateSpace
   bool original = false;
+  EquationsMark of_equations = 0;
   Eigen::SparseMatrix<double> E, A, B, C, D;  // B, C and D without columns, or rows, where no channels were asked for
 };
 

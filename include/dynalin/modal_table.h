@@ -60,6 +60,7 @@ struct ModalTable {
 };
 
 struct ModalTables {
+  EquationsMark of_equations = 0;
   std::vector<ModalTable> tables;  // mode by mode, then those of all modes
   std::vector<Remark> remarks;     // modes that are asked for and not there
 };

@@ -28,7 +28,7 @@ class OperatingPoint {
   MarkerState marker(std::int64_t id) const;  // 0 is the global frame
   double variable(std::int64_t id) const;     // of a point as drawn 0: nothing is solved for there
   // What an element exerts on its marker I: a constraint its reaction, or a force element (on the first of its I
-  // markers, where there are several).
+  // markers, where there are several). The statement may be abbreviated as in a dataset.
   Load load(const ElementId&) const;
   // What the REQUESTs have here in the order of the dataset, then those of MREQUESTs; without those that cannot be
   // evaluated, which remarks of the model name. A component without a finite value is not finite.

@@ -2,17 +2,17 @@
 // elements.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "dynalin/element_id.h"
+#include "dynalin/matrix.h"
 #include "dynalin/results.h"
 
 namespace dynalin {
 
 // What rows of results take of the variations. [rows × accelerations, rates, coordinates, states, inputs]
 struct MotionMap {
-  Eigen::MatrixXd of_accelerations, of_rates, of_coordinates, of_states, of_inputs;
+  DenseMatrix of_accelerations, of_rates, of_coordinates, of_states, of_inputs;
 
   MotionMap& operator+=(const MotionMap&);
 };

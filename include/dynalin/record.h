@@ -15,8 +15,10 @@ class Record {
   Record& operator=(Record&&) noexcept;
   ~Record();
 
-  // `command` names the result, "SIMULATE/STATICS" or whatever tells it from others. A point that a static analysis
-  // found is recorded with that result, a matrix or modes with the point they belong to; all with their remarks.
+  // What is added is of this model, or of others in the same units, matrices, modes and tables of the linear model
+  // beside them; throws Error where they are not. `command` names the result, "SIMULATE/STATICS" or whatever tells it
+  // from others. A point that a static analysis found is recorded with that result, a matrix or modes with the point
+  // they belong to; all with their remarks.
   void add(const std::string& command, const OperatingPoint&);
   void add(const std::string& command, const Simulation&);
   void add(const std::string& command, const LinearModel&, const StateSpace&);

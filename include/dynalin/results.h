@@ -2,7 +2,6 @@
 // the units of the model; matrices by rows and columns as printed.
 #pragma once
 
-#include <Eigen/Core>
 #include <complex>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "dynalin/element_id.h"
+#include "dynalin/matrix.h"
 #include "dynalin/mode_selection.h"
 
 namespace dynalin {
@@ -52,6 +52,10 @@ struct ChannelLabel {  // one input or output
   std::string text;  // "VARIABLE/10"
 };
 
+// Tells results of one linear model from those of another: the same in all of one, and where the equations and names of
+// states and channels are the same to the last bit. 0: of none.
+using EquationsMark = std::uint64_t;
+
 // s' = A s + B u, y = C s + D u with s = (x1', x1, x2', x2, …, z).
 struct StateSpace {
   double time = 0;
@@ -61,7 +65,8 @@ struct StateSpace {
   std::int64_t pinput = 0, poutput = 0;  // ids of the statements, 0 if none was asked for
   std::int64_t rm = 0, pstate = 0;       // marker of the RM option and id of the PSTATE, 0 if none
   bool without_damping = false, original = false;
-  Eigen::MatrixXd A, B, C, D;
+  EquationsMark of_equations = 0;
+  DenseMatrix A, B, C, D;
 };
 
 // M s″ + B s′ + K s = P u, y = C (s, s′) + D u with s = (x, z).
@@ -73,7 +78,8 @@ struct SecondOrder {
   std::int64_t pinput = 0, poutput = 0;  // ids as in StateSpace
   std::int64_t rm = 0, pstate = 0;
   bool without_damping = false, original = false;
-  Eigen::MatrixXd M, B, K, P, C, D;
+  EquationsMark of_equations = 0;
+  DenseMatrix M, B, K, P, C, D;
 };
 
 // Eigenvalues λ/2π in printed order: real ones by ascending modulus, then complex pairs, one entry each with
@@ -110,15 +116,16 @@ struct EigenSolution {
   bool original = false;             // option ORIGINAL
   std::size_t kinematic_states = 0;  // displacements and velocities together
   std::size_t differential_states = 0;
+  EquationsMark of_equations = 0;
   std::vector<StateLabel> states;  // in the order of A
   std::vector<EigenMode> modes;
   std::optional<SelectedModes> selected;  // nothing: these are all modes
   // Eigenvectors of A, one column a mode in the same order, of length 1; empty if they were not asked for.
-  Eigen::MatrixXcd vectors;
+  ComplexDenseMatrix vectors;
   // The same motions in all coordinates of the model and the differential states, one column a mode; the entry of
   // largest modulus is 1.
   std::vector<ShapeLabel> shape_labels;
-  Eigen::MatrixXcd shapes;
+  ComplexDenseMatrix shapes;
 };
 
 }  // namespace dynalin

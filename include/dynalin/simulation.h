@@ -41,7 +41,7 @@ struct SimulationProgress {
   double time = 0;
   bool output = false;  // an output time, at which the point is consistent: the start, each step of output, the end
   IntegrationStatistics statistics;
-  std::function<OperatingPoint()> point;  // made when it is asked for, during the call
+  std::function<OperatingPoint()> point;  // made when it is asked for; throws once the call is over
 };
 
 // A value that is not stated is that of the dataset, or its default.

@@ -68,7 +68,7 @@ std::optional<UnrefinedPairs> unrefined_pairs(const LinearSystem& linear) {
 
 Result<EigenSolution> eigensolve(const LinearSystem& linear, Vectors wanted, const Progress& progress) {
   EigenSolution out;
-  out.time = linear.model.time;
+  out.time = linear.model.time, out.of_equations = linear.model.of_equations;
   out.kinematic_states = linear.kinematic_states;
   out.differential_states = linear.differential_states;
   out.states = linear.model.states;

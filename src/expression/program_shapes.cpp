@@ -4,42 +4,31 @@
 #include <initializer_list>
 #include <utility>
 
+#include "base/word_hash.h"
+
 namespace dynalin {
 
 namespace {
 
-class Hash {
- public:
-  void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x9E3779B97F4A7C15u;
-    value_ ^= value_ >> 32;
-  }
-  void add(std::int32_t a, std::int32_t b) {
-    add(std::uint64_t{static_cast<std::uint32_t>(a)} << 32 | static_cast<std::uint32_t>(b));
-  }
-  void add(const ProgramShape::Place& place) { add(std::uint64_t{place.offset} << 32 | place.length); }
-  std::size_t value() const { return static_cast<std::size_t>(value_); }
-
- private:
-  std::uint64_t value_ = 0;
-};
-
 // Of what tells most expressions apart: switching nodes and functions follow from it but for rare cases.
 std::size_t hash_of(const ProgramShape& shape) {
-  Hash hash;
-  hash.add(shape.length);
+  WordHash hash;
+  const auto add_place = [&](const ProgramShape::Place& place) {
+    hash.add(std::uint64_t{place.offset} << 32 | place.length);
+  };
+  hash.add(std::uint64_t{shape.length});
   for (const ExpressionNode& node : shape.nodes) {
     hash.add(static_cast<std::uint64_t>(node.kind) << 16 | node.function);
     hash.add(node.a, node.b);
   }
-  for (const ProgramShape::Place& place : shape.places) hash.add(place);
+  for (const ProgramShape::Place& place : shape.places) add_place(place);
   for (const ProgramShape::ShapeOfAtom& atom : shape.atoms) {
     hash.add(std::hash<const AtomFunction*>{}(atom.function));
-    hash.add(atom.at);
+    add_place(atom.at);
   }
-  for (const ProgramShape::Place& place : shape.arguments) hash.add(place);
+  for (const ProgramShape::Place& place : shape.arguments) add_place(place);
   for (const Function* function : shape.functions) hash.add(std::hash<const Function*>{}(function));
-  return hash.value();
+  return static_cast<std::size_t>(hash.value());
 }
 
 }  // namespace

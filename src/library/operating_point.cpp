@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dataset/dataset.h"
 #include "library/inside.h"
 #include "system/operating_state.h"
 #include "system/request_values.h"
@@ -14,14 +15,33 @@ namespace {
 
 const dynalin::Model& model_of(const OperatingPoint& p) { return p.inside().point.system->model(); }
 
+void must_exist(const dynalin::Model& model, const ElementId& id) {
+  if (!model.find(id.statement, id.id) && !model.find_body(id.statement, id.id) &&
+      !(id.statement == "MARKER" && model.find_marker(id.id)))
+    fail_for_missing(id.text());
+}
+
 BodyState body(const OperatingPoint& point, const ElementId& id) {
   const OperatingState state = point.state();
   const auto found = std::ranges::find(state.bodies, id, &BodyState::element);
   if (found == state.bodies.end()) {
-    if (!model_of(point).find(id.statement, id.id)) fail_for_missing(id.text());
+    must_exist(model_of(point), id);
     fail(Failure{"results", id.text() + " is the ground, which does not move", {}});
   }
   return *found;
+}
+
+// With the full name of the statement, which may be abbreviated as in a dataset.
+ElementId in_full(const ElementId& id) {
+  const std::string_view name = statement_name(id.statement);
+  if (name.empty()) {
+    const std::string_view near = nearest_word(id.statement, statement_names());
+    fail(Failure{"results",
+                 fmt::format("'{}' is no statement of a dataset{}", id.statement,
+                             near.empty() ? "" : fmt::format("; did you mean {}?", near)),
+                 {}});
+  }
+  return {std::string(name), id.id};
 }
 
 }  // namespace
@@ -50,13 +70,14 @@ double OperatingPoint::variable(std::int64_t id) const {
   return *value;
 }
 
-Load OperatingPoint::load(const ElementId& id) const {
+Load OperatingPoint::load(const ElementId& asked) const {
+  const ElementId id = in_full(asked);
   const OperatingState state = this->state();
   for (const auto* loads : {&state.reactions, &state.forces}) {
     const auto found = std::ranges::find(*loads, id, &Load::element);
     if (found != loads->end()) return *found;
   }
-  if (!model_of(*this).find(id.statement, id.id)) fail_for_missing(id.text());
+  must_exist(model_of(*this), id);
   fail(Failure{"results", id.text() + " exerts no force and torque on a marker", {}});
 }
 

@@ -1,6 +1,7 @@
 #include "dynalin/record.h"
 
 #include <sstream>
+#include <tuple>
 
 #include "library/inside.h"
 #include "output/json.h"
@@ -9,16 +10,30 @@
 
 namespace dynalin::library {
 
+namespace {
+
+auto values_of(const Units& u) { return std::tie(u.ucf, u.length_in_metres, u.force, u.mass, u.length, u.time); }
+
+}  // namespace
+
 struct Record::Inside {
   JsonResults json;
   Units units;
   bool failed = false;
 
+  void check_units(const OperatingPoint& point) const {
+    if (values_of(point.inside().point.system->model().units) != values_of(units))
+      refuse("the result is in other units than the model of the record");
+  }
+  [[noreturn]] static void refuse(std::string why) { fail(Failure{"record", std::move(why), {}}); }
   void warn(const std::string& command, const std::vector<Remark>& remarks) {
     for (const Remark& r : remarks) json.add_warning(command, r);
   }
   template <class Result>
   void add_linear(const std::string& command, const LinearModel& of, const Result& result) {
+    check_units(of.operating_point());
+    if (result.of_equations != of.inside().linear.linear.model.of_equations)
+      refuse("the result is one of another linear model");
     warn(command, of.remarks());
     json.add(command, result);
     const Linearization& linear = of.inside().linear;
@@ -42,6 +57,7 @@ Record& Record::operator=(Record&&) noexcept = default;
 Record::~Record() = default;
 
 void Record::add(const std::string& command, const OperatingPoint& point) {
+  inside_->check_units(point);
   inside_->warn(command, point.remarks());
   if (point.is_static())
     inside_->json.add(command, point.static_result());
@@ -52,6 +68,7 @@ void Record::add(const std::string& command, const OperatingPoint& point) {
 }
 
 void Record::add(const std::string& command, const Simulation& simulation) {
+  inside_->check_units(simulation.point);
   inside_->warn(command, simulation.point.remarks());
   inside_->json.add(command, simulation.point.time(), simulation.history);
   inside_->json.add_point(simulation.point.is_static() ? simulation.point.static_result().at_rest
@@ -68,6 +85,8 @@ void Record::add(const std::string& command, const LinearModel& of, const Descri
   inside_->add_matrices(command, of, result);
 }
 void Record::add(const std::string& command, const LinearModel& of, const Modes& result, const ModalTables& tables) {
+  if (!tables.tables.empty() && tables.of_equations != result.of_equations)
+    Inside::refuse("the tables are of modes of another linear model");
   inside_->add_linear<EigenSolution>(command, of, result);
   inside_->json.add_tables(tables.tables);
   inside_->warn(command, result.remarks);

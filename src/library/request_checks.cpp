@@ -95,7 +95,7 @@ void check(const ModeSelection& selection) {
 }
 
 void check(const EigenSolution& modes, const LinearModel::Inside& of) {
-  const auto fits = [](const Eigen::MatrixXcd& columns, std::size_t rows, std::size_t count) {
+  const auto fits = [](const ComplexDenseMatrix& columns, std::size_t rows, std::size_t count) {
     return columns.rows() == static_cast<Eigen::Index>(rows) && columns.cols() == static_cast<Eigen::Index>(count);
   };
   RequestCheck c("tables of modes");
@@ -103,11 +103,7 @@ void check(const EigenSolution& modes, const LinearModel::Inside& of) {
   if (count > 0 && modes.vectors.size() == 0) {
     c.require(false, "they need mode shapes, and these modes were found without: modes() has them");
   } else {
-    const auto same = [](const StateLabel& a, const StateLabel& b) {
-      return a.type == b.type && a.element == b.element && a.coordinate == b.coordinate && a.text == b.text;
-    };
-    c.require(std::ranges::equal(modes.states, of.linear.linear.model.states, same),
-              "the modes are those of a linear model with other states");
+    c.require(modes.of_equations == of.linear.linear.model.of_equations, "the modes are those of another linear model");
     c.require(count == 0 || (fits(modes.vectors, modes.states.size(), count) &&
                              fits(modes.shapes, modes.shape_labels.size(), count)),
               fmt::format("there are {} modes, and vectors or shapes of other sizes", count));

@@ -30,16 +30,29 @@ Simulation Study::simulate(const OperatingPoint& from, const SimulationRequest& 
   whole.kinematics = stated.kinematics;
   whole.statics = statics_options(stated.equilibrium);
   History history;
-  const auto watch = [&](const SimulationStep& step) {
-    if (step.output) append(history, step.system, step.point);
+  const auto watch = [&](const SimulationStep& now) {
+    if (now.output) append(history, now.system, now.point);
     if (!request.watch) return GoOn::yes;
-    const auto point = [&] {
-      StudyPoint at = start;
+    // The watcher may keep what it was told for longer than the instant lasts.
+    struct Instant {
+      const SimulationStep* step;
+      const StudyPoint* start;
+    };
+    const auto instant = std::make_shared<std::optional<Instant>>(Instant{&now, &start});
+    const struct Over {
+      std::optional<Instant>& instant;
+      ~Over() { instant.reset(); }
+    } over{*instant};
+    const auto point = [instant] {
+      if (!*instant)
+        fail(Failure{"simulation", "the instant is over: its point is there during the call of watch alone", {}});
+      const SimulationStep& step = *(*instant)->step;
+      StudyPoint at = *(*instant)->start;
       at.values = step.point, at.started = true, at.consistent = step.output;
       at.statics.reset();
       return OperatingPoint(std::make_shared<const OperatingPoint::Inside>(OperatingPoint::Inside{std::move(at), {}}));
     };
-    return request.watch({step.point.time, step.output, step.statistics, point}) ? GoOn::yes : GoOn::no;
+    return request.watch({now.point.time, now.output, now.statistics, point}) ? GoOn::yes : GoOn::no;
   };
   SimulatedPoint found = value_or_throw(dynalin::simulate(start, whole, watch));
   return {OperatingPoint(std::make_shared<const OperatingPoint::Inside>(

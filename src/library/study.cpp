@@ -60,7 +60,7 @@ void fail(const StudyFailure& f, std::vector<Remark> said) {
   Remark why;
   why.severity = Remark::Severity::error;
   why.message = f.message, why.code = f.code;
-  Error error(text, {std::move(why)});
+  Error error(text, f.problems.empty() ? std::vector{std::move(why)} : f.problems);
   error.analysis = f.analysis;
   error.details = f.details;
   error.remarks = std::move(said);
@@ -159,7 +159,7 @@ Modes LinearModel::modes(const ModeSelection& selection, ModeShapes shapes) cons
 ModalTables LinearModel::tables(const EigenSolution& modes, const ModalTableRequest& request) const {
   check(modes, *inside_);
   TablesFound found = value_or_throw(modal_tables(inside_->linear, modes, request), inside_->remarks);
-  return {std::move(found.tables), remarks_of(found.remarks)};
+  return {modes.of_equations, std::move(found.tables), remarks_of(found.remarks)};
 }
 
 const LinearRequest& LinearModel::request() const { return inside_->linear.request; }

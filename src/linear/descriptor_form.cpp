@@ -22,7 +22,7 @@ DescriptorForm descriptor_form(const Perturbation& linear) {
   const PerturbationEquations& p = *linear.equations;
   const StateSpace& model = linear.model;
   DescriptorForm out;
-  out.time = model.time;
+  out.time = model.time, out.of_equations = model.of_equations;
   out.states = model.states, out.inputs = model.inputs, out.outputs = model.outputs;
   out.pinput = model.pinput, out.poutput = model.poutput, out.rm = model.rm, out.pstate = model.pstate;
   out.original = model.original;

@@ -25,7 +25,7 @@ std::string overflown(const StateSpace& m) {
     const StateLabel& s = m.states[static_cast<std::size_t>(k)];
     return fmt::format("{} of {}", s.text, s.owner.text());
   };
-  const auto look = [](const Matrix& matrix, const auto& row, const auto& column) -> std::string {
+  const auto look = [](const DenseMatrix& matrix, const auto& row, const auto& column) -> std::string {
     for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
       for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
         if (!std::isfinite(matrix(r, c)))
@@ -138,7 +138,7 @@ std::string names_of(const System& system, const std::vector<std::int32_t>& rows
 // The linear model must not depend on what is not known of the motion of freedoms without mass.
 bool same_model(const LinearSystem& one, const LinearSystem& other) {
   constexpr double same_entries = 1e-9;
-  const auto differs = [&](const Matrix& a, const Matrix& b) {
+  const auto differs = [&](const DenseMatrix& a, const DenseMatrix& b) {
     return a.rows() != b.rows() || a.cols() != b.cols() ||
            (a.size() > 0 && ((a - b).array().abs() > same_entries * (a.cwiseAbs() + b.cwiseAbs()).maxCoeff()).any());
   };

@@ -6,7 +6,7 @@ namespace dynalin {
 
 Result<SecondOrder> second_order(const StateSpace& model, std::size_t first_order) {
   SecondOrder out;
-  out.time = model.time;
+  out.time = model.time, out.of_equations = model.of_equations;
   out.pinput = model.pinput, out.poutput = model.poutput;
   out.inputs = model.inputs, out.outputs = model.outputs;
   // Rates stand before their coordinates; differential states come last.

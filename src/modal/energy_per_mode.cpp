@@ -268,7 +268,8 @@ Result<EnergyPerMode> energy_per_mode(const System& system, const OperatingPoint
   out.counted.assign(modes.modes.size(), false);
   if (n == 0) return out;  // differential states alone
   const MassRoot root(system, op);
-  const Matrix B = root.of(linear.velocities(Matrix::Identity(states, states)(Eigen::all, rate)).real());
+  const Matrix B =
+      root.of(linear.velocities(Matrix::Identity(states, states)(Eigen::all, rate).cast<Complex>()).real());
   const Matrix M = B.transpose() * B;
   const auto along = along_states(system, linear, position, DampingOfForces::as_linearized);
   if (!along) return tl::unexpected(along.error());

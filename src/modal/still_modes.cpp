@@ -118,7 +118,7 @@ std::vector<Index> seen_by(const PerturbationEquations& p, std::vector<Index> ro
 }
 
 // States that nothing on the way to those marked can see.
-std::vector<Index> without_influence(const Matrix& A, const Matrix& rounding, const std::vector<bool>& marked) {
+std::vector<Index> without_influence(const DenseMatrix& A, const Matrix& rounding, const std::vector<bool>& marked) {
   std::vector<bool> seen = marked;
   std::vector<Index> open, others;
   for (Index k = 0; k < A.rows(); ++k) {
@@ -161,7 +161,7 @@ struct OwnSystem {
   Matrix A;
 };
 
-OwnSystem own_system(const Matrix& A, const MassRoot& root, const LinearSystem& linear) {
+OwnSystem own_system(const DenseMatrix& A, const MassRoot& root, const LinearSystem& linear) {
   std::vector<Index> all(static_cast<std::size_t>(A.rows()));
   std::iota(all.begin(), all.end(), Index{0});
   OwnSystem own{without_influence(A, nothing_but_rounding(linear), moving_mass(root, linear, all)), {}};

@@ -15,7 +15,7 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
   const auto found = modes_of(of, Vectors::right);
   if (!found) return tl::unexpected(found.error());
   const EigenSolution& solution = found->solution;
-  const Eigen::MatrixXcd moved = of.linear.displacements(solution.vectors);
+  const ComplexDenseMatrix moved = of.linear.displacements(solution.vectors);
   const StateChoice& choice = of.linear.at->choice;
   const auto& bodies = of.system->layout().bodies;
 
@@ -23,7 +23,7 @@ StudyResult<void> add_modes(const Linearization& of, const OpenPoints& points, D
   for (std::size_t b = 1; b < bodies.size(); ++b) grids[points.grid({static_cast<std::int32_t>(b)})] = b;
   // Rows of the modes themselves, or of their displacements.
   struct Row {
-    const Eigen::MatrixXcd* of;
+    const ComplexDenseMatrix* of;
     Eigen::Index at;
   };
   std::map<std::int64_t, Row> scalar_points;

@@ -91,7 +91,7 @@ void write_list(JsonText& out, std::size_t count, Each&& each) {
   out.close(']');
 }
 
-auto matrix(const Eigen::MatrixXd& m) {
+auto matrix(const DenseMatrix& m) {
   return [&](JsonText& out) {
     write_list(out, static_cast<std::size_t>(m.rows()), [&](std::size_t r) {
       write_list(out, static_cast<std::size_t>(m.cols()),
@@ -100,7 +100,7 @@ auto matrix(const Eigen::MatrixXd& m) {
   };
 }
 
-void write_column(JsonText& out, const Eigen::MatrixXcd& m, std::size_t k) {
+void write_column(JsonText& out, const ComplexDenseMatrix& m, std::size_t k) {
   write_list(out, static_cast<std::size_t>(m.rows()),
              [&](std::size_t r) { out.complex(m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k))); });
 }
@@ -248,7 +248,7 @@ void JsonResults::add(const std::string& command, const StateSpace& s) {
 
 void JsonResults::add(const std::string& command, const SecondOrder& s) {
   if (!document_) return;
-  Eigen::MatrixXd KB(s.K.rows(), s.K.cols() + s.B.cols());
+  DenseMatrix KB(s.K.rows(), s.K.cols() + s.B.cols());
   KB << s.K, s.B;
   CommandResult result = {{"command", command}, {"time", s.time}};
   result.write("M", matrix(s.M)).write("KB", matrix(KB)).write("B", matrix(s.B)).write("K", matrix(s.K));

@@ -105,7 +105,7 @@ std::string ResultsFile::table(const ModalTable& t) const {
   return s + "</dl:Table>\n";
 }
 
-std::string ResultsFile::matrix(std::string_view name, const Eigen::MatrixXd& m) const {
+std::string ResultsFile::matrix(std::string_view name, const DenseMatrix& m) const {
   if (m.size() == 0) return {};
   std::string s =
       fmt::format("<dl:Matrix name=\"{}\" rows=\"{}\" columns=\"{}\" order=\"column\">\n", name, m.rows(), m.cols());
@@ -133,7 +133,7 @@ void ResultsFile::add(const StateSpace& model) {
 }
 
 void ResultsFile::add(const SecondOrder& model) {
-  Eigen::MatrixXd KB(model.K.rows(), model.K.cols() + model.B.cols());
+  DenseMatrix KB(model.K.rows(), model.K.cols() + model.B.cols());
   KB << model.K, model.B;
   std::string s = head(model, "MKB") + matrix("M", model.M) + matrix("KB", KB);
   s += matrix("P", model.P) + matrix("C", model.C) + matrix("D", model.D);

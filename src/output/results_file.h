@@ -40,7 +40,7 @@ class ResultsFile {
   std::string number(double) const;
   std::string table(const ModalTable&) const;
   std::string selection(const SelectedModes&) const;
-  std::string matrix(std::string_view name, const Eigen::MatrixXd&) const;
+  std::string matrix(std::string_view name, const DenseMatrix&) const;
   // The head of what belongs to matrices: options and channels.
   template <class Matrices>
   std::string head(const Matrices&, std::string_view option) const;

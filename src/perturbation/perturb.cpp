@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/dense_products.h"
+#include "base/word_hash.h"
 #include "elements/controls/variable_list.h"
 #include "perturbation/along_open_directions.h"
 #include "perturbation/perturbation.h"
@@ -62,6 +63,7 @@ class Perturber {
           {},
           "massless-motion"});
     }
+    result_.model.of_equations = mark_of(*equations);
     result_.equations = std::make_shared<const PerturbationEquations>(std::move(*equations));
     result_.at = std::move(at_);
     return std::move(result_);
@@ -166,6 +168,27 @@ class Perturber {
     return tl::unexpected(Failure{"linear analysis", std::move(message), {}, "undefined-value"});
   }
 
+  EquationsMark mark_of(const PerturbationEquations& p) const {
+    WordHash hash;
+    const auto add = [&](std::int32_t r, std::int32_t c, double v) {
+      hash.add(r, c);
+      hash.add(v);
+    };
+    hash.add(op_.time);
+    hash.add(options_.rm.index, at_->without_damping + 2 * at_->without_rate_coupling);
+    for_each_entry(p.products(), add);
+    for_each_entry(p.by_states_and_inputs(), add);
+    for_each_entry(at_->outputs_by_unknowns(p), add);
+    for (const StateLabel& s : result_.model.states) {
+      hash.add(static_cast<std::int32_t>(s.type), s.coordinate);
+      hash.add(static_cast<std::uint64_t>(s.element));
+      hash.add(s.text);
+    }
+    for (const auto* channels : {&result_.model.inputs, &result_.model.outputs})
+      for (const ChannelLabel& c : *channels) hash.add(static_cast<std::uint64_t>(c.variable));
+    return hash.value();
+  }
+
   // The name of an output that reads what freedoms without mass leave open.
   std::string open_output(const PerturbationEquations& p) const {
     const Matrix& open = p.open_directions();
@@ -197,7 +220,8 @@ class Perturber {
 
 // part(columns) of motions.
 template <class Part>
-Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::MatrixXcd& of_states, Part&& part) {
+Eigen::MatrixXcd of_motions(const PerturbationEquations& equations, const Eigen::Ref<const Eigen::MatrixXcd>& of_states,
+                            Part&& part) {
   Eigen::MatrixXcd all(equations.coordinates(), of_states.cols());
   for_few_columns(equations.unknowns(), of_states.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::MatrixXcd motions = equations.motions(of_states.middleCols(first, count));
@@ -212,10 +236,10 @@ Result<Perturbation> perturb(const System& system, const OperatingPoint& op, con
   return Perturber(system, op, options).run();
 }
 
-Eigen::MatrixXcd Perturbation::displacements(const Eigen::MatrixXcd& of_states) const {
+Eigen::MatrixXcd Perturbation::displacements(const Eigen::Ref<const Eigen::MatrixXcd>& of_states) const {
   return of_motions(*equations, of_states, [&](const auto& m) { return m.topRows(equations->coordinates()); });
 }
-Eigen::MatrixXcd Perturbation::velocities(const Eigen::MatrixXcd& of_states) const {
+Eigen::MatrixXcd Perturbation::velocities(const Eigen::Ref<const Eigen::MatrixXcd>& of_states) const {
   return of_motions(*equations, of_states, [&](const auto& m) { return m.bottomRows(equations->coordinates()); });
 }
 

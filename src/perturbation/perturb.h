@@ -32,8 +32,8 @@ struct Perturbation {
   std::shared_ptr<const PerturbedPoint> at;  // what they were made of
 
   // What columns of states do to all coordinates of the layout, and to their rates.
-  Eigen::MatrixXcd displacements(const Eigen::MatrixXcd& of_states) const;
-  Eigen::MatrixXcd velocities(const Eigen::MatrixXcd& of_states) const;
+  Eigen::MatrixXcd displacements(const Eigen::Ref<const Eigen::MatrixXcd>& of_states) const;
+  Eigen::MatrixXcd velocities(const Eigen::Ref<const Eigen::MatrixXcd>& of_states) const;
 };
 
 // The equations, without the state matrix. The point must be consistent on all levels (solve_acceleration).

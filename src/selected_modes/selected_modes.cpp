@@ -196,7 +196,7 @@ class Solution {
     clear_rounding(found.pairs, found.trust);
     clear_phases(found.pairs, found.trust);
     EigenSolution out;
-    out.time = perturbation_.model.time;
+    out.time = perturbation_.model.time, out.of_equations = perturbation_.model.of_equations;
     out.kinematic_states = perturbation_.kinematic_states;
     out.differential_states = perturbation_.differential_states;
     out.states = perturbation_.model.states;

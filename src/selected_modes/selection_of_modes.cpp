@@ -78,6 +78,7 @@ EigenSolution selected_of(const EigenSolution& all, const ModeSelection& wanted)
   out.without_damping = all.without_damping, out.original = all.original;
   out.kinematic_states = all.kinematic_states, out.differential_states = all.differential_states;
   out.states = all.states;
+  out.of_equations = all.of_equations;
   out.selected = std::move(selected);
   if (all.vectors.size() > 0) out.vectors = all.vectors(Eigen::all, chosen);
   out.shape_labels = all.shape_labels;

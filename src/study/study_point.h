@@ -9,6 +9,7 @@
 #include "analysis/initial.h"
 #include "analysis/statics.h"
 #include "dynalin/marker_state.h"
+#include "dynalin/remark.h"
 #include "system/carry_over.h"
 
 namespace dynalin {
@@ -17,6 +18,7 @@ namespace dynalin {
 struct StudyFailure : Failure {
   StudyFailure(Failure failure, Diagnostics said = {}) : Failure(std::move(failure)), remarks(std::move(said)) {}
   Diagnostics remarks;
+  std::vector<Remark> problems;  // of an input that cannot be read: each of them, with its place
 };
 template <class T>
 using StudyResult = tl::expected<T, StudyFailure>;

@@ -428,7 +428,7 @@ TEST(Library, tables_want_shapes_of_the_model_itself) {
   cut.vectors.conservativeResize(Eigen::NoChange, 1);
   EXPECT_THAT(refused(cut), HasSubstr("vectors or shapes of other sizes"));
   const auto other = study_of(replaced(pendulum, "VARIABLE/3", "DIFF/7, FUNCTION=-DIF(7)\nVARIABLE/3")).linearize();
-  EXPECT_THAT(refused(other.modes()), HasSubstr("of a linear model with other states"));
+  EXPECT_THAT(refused(other.modes()), HasSubstr("the modes are those of another linear model"));
 }
 
 TEST(Library, has_the_values_of_requests_at_a_point) {

@@ -50,6 +50,24 @@ expect("settles by 0\\.163827 m, the strut carries 2943\\.00 N")
 expect("moves PART/3")
 expect("moves PART/2")
 expect("with Dynalin ${VERSION}\n")
+
+# Programs are compiled as they like: what a matrix of the library is freed by must not depend on it, and nothing that
+# both sides instantiate may be taken from the other.
+foreach(options IN ITEMS "-march=native -O1" "-fsanitize=address")
+  run("configuring with ${options}" ${CMAKE_COMMAND} -G ${GENERATOR} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/matrices
+      -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/installed "-DCMAKE_CXX_FLAGS=${options}")
+  run("building with ${options}" ${CMAKE_COMMAND} --build ${WORK}/matrices)
+  run("running with ${options}" ${WORK}/matrices/matrices)
+  expect("all as it should be\n")
+endforeach()
+run("the names that the library shows" ${NM} -DC --defined-only ${WORK}/installed/lib/libdynalin.so)
+string(REGEX MATCHALL "[^\n]* [TWVBDRu] [^\n]*" shown "${output}")
+list(FILTER shown EXCLUDE REGEX " [A-Za-z] ((typeinfo|typeinfo name|vtable) for )?dynalin::| T [A-Za-z0-9_]+$")
+if(shown)
+  list(SUBLIST shown 0 5 shown)
+  message(FATAL_ERROR "the library shows what is not its own:\n${shown}")
+endif()
+
 run("the program" ${WORK}/installed/bin/dynalin --version)
 expect("dynalin ${VERSION}")
 file(REMOVE_RECURSE ${WORK})
