@@ -72,7 +72,7 @@ struct ArgumentInfo {
   // What its numbers are where it is not stated; nothing where that depends on other arguments.
   std::optional<double> unstated() const { return of_new ? std::optional(of_new()) : of_list; }
   double (*of_new)() = nullptr;     // of a plain number: what its member is made with
-  std::optional<double> of_list{};  // of a list: what its table says
+  std::optional<double> of_list{};  // of a list or vector: what its table says
 
   // What the manual and messages call its value: "real", "marker", "variables" …; empty where it has none.
   std::string value_text() const;

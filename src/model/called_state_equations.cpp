@@ -5,6 +5,7 @@
 #include <array>
 
 #include "model/called_routines.h"
+#include "model/missing_routine.h"
 
 namespace dynalin {
 
@@ -128,7 +129,7 @@ class CalledRoutines::StateCalls {
     called_.diagnostics_.error(
         "missing-routine", naming ? naming->value_span() : at_,
         fmt::format("{} calls {}, and no library has it", statement_.at.text(), naming ? written : by_default),
-        hint.empty() ? "--user-library names libraries; nm -D FILE.so lists what is in one" : std::string(hint));
+        std::string(hint.empty() ? missing_routine::look_into_libraries : hint));
     return false;
   }
 

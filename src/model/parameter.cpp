@@ -9,6 +9,8 @@
 #include <map>
 #include <optional>
 
+#include "dataset/word_list.h"
+
 namespace dynalin {
 
 namespace {
@@ -26,6 +28,7 @@ struct Place {
   const Statement* statement = nullptr;  // nothing where the dataset need not have it
   const ArgumentInfo* argument = nullptr;
   std::vector<const WrittenArgument*> written{};  // several of one that repeats; empty where it is not stated
+  std::string_view instead{};                     // an argument that is stated and excludes it
 };
 
 using Lists = std::vector<std::vector<double>>;
@@ -42,6 +45,11 @@ class Finder {
     for (const ArgumentInfo& a : (*kind)->arguments) names.push_back(a.name);
     const auto k = find_keyword(p.argument, names);
     if (!k || (*kind)->arguments[*k].elsewhere) {
+      if (k) {
+        const ArgumentInfo& of_another = (*kind)->arguments[*k];
+        return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), of_another.name),
+                       fmt::format("{} {}", of_another.name, of_another.help));
+      }
       const std::string_view near = nearest_word(p.argument, names);
       return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), p.argument),
                      near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))
@@ -52,11 +60,12 @@ class Finder {
       for (const WrittenArgument& w : place.statement->arguments) {
         const auto which = find_keyword(w.name.text(), names);
         if (which && *which == *k) place.written.push_back(&w);
+        if (which && lists_word(place.argument->ends, names[*which])) place.instead = names[*which];
       }
     }
     if (!takes_numbers(*place.argument) && !is_written_number(place)) {
       return refusal("expected-number",
-                     fmt::format("{} of {} is {}, no number", place.argument->name, name_of(p.element),
+                     fmt::format("{} of {} is no number ({})", place.argument->name, name_of(p.element),
                                  place.argument->is_flag ? "a bare word" : place.argument->value_text()));
     }
     const std::size_t count = place.argument->count;
@@ -70,11 +79,12 @@ class Finder {
   // All numbers of the argument, list by list: as written, else what holds without it.
   tl::expected<Lists, Diagnostic> numbers(const ParameterRef& p, const Place& place) const {
     const std::optional<double> unstated = place.argument->unstated();
-    if (place.written.empty() && unstated && place.argument->count > 0)
+    if (place.written.empty() && unstated && place.argument->count > 0 && place.instead.empty())
       return Lists{std::vector<double>(place.argument->count, *unstated)};
     if (place.written.empty())
       return refusal("unstated-number", fmt::format("{} of {} is not stated", place.argument->name, name_of(p.element)),
-                     "what holds without it is no number of its own");
+                     place.instead.empty() ? std::string("what holds without it is no number of its own")
+                                           : fmt::format("{} is, which stands instead of it", place.instead));
     Diagnostics problems;
     Lists lists;
     for (const WrittenArgument* w : place.written) {
@@ -148,7 +158,7 @@ class Finder {
 
 // Whether a number is the next one behind a list that may have any length: IP[4] behind three.
 bool grows(const ArgumentInfo& a, const ParameterRef& p, std::size_t length) {
-  return a.count == 0 && !a.repeats && p.list == 1 && p.index == length + 1;
+  return a.count == 0 && p.index == length + 1;
 }
 
 // The new values of one argument, of one that repeats all its lists, as a statement of their own.
@@ -244,7 +254,8 @@ tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const D
     }
     Lists& lists = arguments[{p.element, place->argument->name}];
     if (lists.empty()) {
-      const bool is_first = place->written.empty() && (place->argument->count == 1 || grows(*place->argument, p, 0));
+      const bool is_first =
+          place->written.empty() && (place->argument->count == 1 || (p.list == 1 && grows(*place->argument, p, 0)));
       auto before = is_first ? Lists{{value}} : finder.numbers(p, *place);
       if (!before) {
         refuse(before.error());
@@ -252,7 +263,10 @@ tl::expected<EditedDataset, Diagnostics> with_parameters(std::shared_ptr<const D
       }
       lists = std::move(*before);
     }
-    if (grows(*place->argument, p, lists.front().size())) lists.front().push_back(value);
+    if (p.list > 0 && p.list <= lists.size()) {
+      std::vector<double>& list = lists[p.list - 1];
+      if (grows(*place->argument, p, list.size())) list.push_back(value);
+    }
     if (const auto missing = Finder::beyond(p, lists)) {
       refuse(*missing);
       continue;

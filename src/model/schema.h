@@ -77,7 +77,7 @@ struct Argument {
   std::string_view ends{};  // see ArgumentInfo
   StatedStart start = StatedStart::nothing;
   std::size_t count = 0;             // of a list: so many numbers
-  std::optional<double> unstated{};  // of a list: each of its numbers where it is not stated
+  std::optional<double> unstated{};  // of a list or vector: each of its numbers where it is not stated
   std::string_view ids_of{};         // of ids that are kept as they are written: the statement whose they are
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "model/called_routines.h"
+#include "model/missing_routine.h"
 
 namespace dynalin {
 
@@ -155,7 +156,7 @@ class Replacement {
     } else if (!called_.lacks_library()) {
       diagnostics_.error("missing-routine", at,
                          fmt::format("{} calls compiled routines, and no library that has them is named", s.at.text()),
-                         "--user-library FILE.so names a library; no constant can take its place");
+                         std::string(missing_routine::name_a_library));
     }
     if (equations) calls_.emplace_back(&s, called_.written(equations, call ? call->value_span() : s.at));
     WrittenArguments kept;
@@ -183,7 +184,7 @@ class Replacement {
       if (call.damaged || value_ || wanted.empty()) return call.damaged;
       diagnostics_.error("missing-routine", span_of(call.value()[0], *call.name.source),
                          fmt::format("{} calls {}, and no library has it", s.at.text(), wanted),
-                         "--user-library names libraries; nm -D FILE.so lists what is in one");
+                         std::string(missing_routine::look_into_libraries));
       call.damaged = true;
       return true;
     }
@@ -202,9 +203,8 @@ class Replacement {
           "missing-routine", at,
           fmt::format("{} calls a compiled routine, {}", s.at.text(),
                       kind ? "and no library that has it is named" : "which its kind of statement cannot do yet"),
-          !can_be_constant
-              ? "no constant can take its place"
-              : "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
+          !can_be_constant ? std::string("no constant can take its place")
+                           : std::string(missing_routine::name_a_library_or_a_value));
       call.damaged = true;
       return;
     }

@@ -216,6 +216,9 @@ std::string duration(double seconds) {
   return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
 }
 std::string memory(double bytes) {
+  if (bytes < 1e3) return fmt::format("{:.0f} bytes", bytes);
+  if (bytes < 1e5) return fmt::format("{:.1f} kB", bytes / 1e3);
+  if (bytes < 1e8) return fmt::format("{:.1f} MB", bytes / 1e6);
   return bytes < 10e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} GB", bytes / 1e9);
 }
 
@@ -242,8 +245,8 @@ StudyResult<void> check_size_of_matrices(std::size_t states, const LinearRequest
   return tl::unexpected(StudyFailure(
       {"linear analysis",
        fmt::format(
-           "the state matrix of {} states has {} and is formed up to {} states only; LINEAR/STATEMAT, DESCRIPTOR "
-           "writes the sparse equations instead, --dense-up-to {} forms it",
+           "the state matrix of {} states has {} and is formed up to {} states only; the sparse equations "
+           "(LINEAR/STATEMAT, DESCRIPTOR; descriptor_form) do without it, --dense-up-to {} (dense_up_to) forms it",
            states, memory(8 * n * n), most, states),
        {}}));
 }

@@ -100,7 +100,7 @@ TEST(Linearization, refuses_matrices_that_nobody_meant) {
   EXPECT_TRUE(check_size_of_matrices(state_matrices_up_to, {}));
   const auto refused = check_size_of_matrices(state_matrices_up_to + 1, {});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("--dense-up-to 5001 forms it"));
+  EXPECT_THAT(refused.error().message, HasSubstr("--dense-up-to 5001 (dense_up_to) forms it"));
   EXPECT_TRUE(check_size_of_matrices(state_matrices_up_to + 1, {.dense_up_to = state_matrices_up_to + 1}));
   EXPECT_FALSE(check_size_of_matrices(2, {.dense_up_to = 1}));
 }

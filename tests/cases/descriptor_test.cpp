@@ -184,8 +184,9 @@ TEST_F(Descriptor, is_offered_where_state_matrices_are_too_large) {
     const auto [status, said] = run_with(command);
     EXPECT_EQ(status, 2);
     EXPECT_THAT(said,
-                HasSubstr("the state matrix of 4 states has 0.0 GB and is formed up to 3 states only; "
-                          "LINEAR/STATEMAT, DESCRIPTOR writes the sparse equations instead, --dense-up-to 4 forms it"));
+                HasSubstr("the state matrix of 4 states has 128 bytes and is formed up to 3 states only; the sparse "
+                          "equations (LINEAR/STATEMAT, DESCRIPTOR; descriptor_form) do without it, --dense-up-to 4 "
+                          "(dense_up_to) forms it"));
   }
   EXPECT_EQ(run_with("LINEAR/STATEMAT, DESCRIPTOR").first, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "m.mat"));

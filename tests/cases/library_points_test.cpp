@@ -52,6 +52,48 @@ TEST(LibraryPoints, measures_functions_at_a_point) {
   EXPECT_THROW(study_of(resting).measured(point, {"TIME"}), Error);
 }
 
+// Functions are values of the model, and of nothing that measuring them takes.
+TEST(LibraryPoints, measures_functions_that_know_nothing_of_each_other) {
+  const auto study = study_of(swinging);
+  const auto point = study.initial_conditions();
+  EXPECT_EQ(study.measured(point, {"VARVAL(3)+1", "7"}), (std::vector<double>{1, 7}));
+  for (const std::string id : {"1", "2", "4", "5", "12", "99999998", "99999999", "2147483647"}) {
+    const Error error = error_of([&] { study.measured(point, {"7", "VARVAL(" + id + ")", "8"}); });
+    ASSERT_EQ(error.problems.size(), 1u) << id;
+    EXPECT_EQ(error.problems[0].code, "unknown-element");
+    EXPECT_EQ(error.problems[0].file, "functions");
+    EXPECT_EQ(error.problems[0].line, 2u);
+    EXPECT_EQ(error.problems[0].column, 8u);
+    EXPECT_THAT(error.problems[0].message, HasSubstr("VARIABLE/" + id + ", which does not exist"));
+    EXPECT_THAT(error.problems[0].hint, ::testing::AnyOf("", "VARIABLE/3 exists"));
+  }
+  // As many problems as there are, each with its place.
+  const Error several = error_of([&] { study.measured(point, {"DX(99,1)", "NOTHING(1)", "TIME", "1+*2"}); });
+  ASSERT_EQ(several.problems.size(), 3u);
+  std::vector<std::size_t> lines;
+  for (const auto& problem : several.problems) {
+    lines.push_back(problem.line);
+    EXPECT_FALSE(problem.code.empty());
+    EXPECT_THAT(problem.message, ::testing::Not(HasSubstr("VARIABLE/")));
+  }
+  EXPECT_EQ(lines, (std::vector<std::size_t>{1, 2, 4}));
+  EXPECT_THAT(several.what(), HasSubstr("functions:1:4: error: the function 'DX(99,1)'"));
+  EXPECT_THAT(error_of([&] { study.measured(point, {"1/(TIME-TIME)"}); }).what(), HasSubstr("'1/(TIME-TIME)'"));
+}
+
+TEST(LibraryPoints, measures_functions_whatever_ids_the_model_has) {
+  auto text = swinging;
+  text.replace(text.find("VARIABLE/3, FUNCTION=AZ(21,1)"), 29,
+               "VARIABLE/2147483647, FUNCTION=3\nVARIABLE/999999971, FUNCTION=6\nVARIABLE/99999999, "
+               "FUNCTION=4\nVARIABLE/99999998, FUNCTION=5");
+  const auto study = study_of(text);
+  EXPECT_EQ(study.measured(study.initial_conditions(), {"TIME+2", "VARVAL(2147483647)", "VARVAL(99999999)", "1"}),
+            (std::vector<double>{2, 3, 4, 1}));
+  // An id of which one of theirs is the beginning.
+  const Error error = error_of([&] { study.measured(study.initial_conditions(), {"VARVAL(999999972)"}); });
+  EXPECT_THAT(error.what(), HasSubstr("refers to VARIABLE/999999972, which does not exist"));
+}
+
 TEST(LibraryPoints, saves_points_and_reloads_them) {
   const auto model = dynalin::Model::from_text(swinging);
   const dynalin::Study study(model), again = study_of(swinging);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "analysis/initial.h"
@@ -207,14 +208,60 @@ TEST(Parameter, that_is_none_is_refused_with_the_reason) {
   EXPECT_EQ(refusal_of(*d, "PART/2 MAS5"),
             "error: PART/2 has no argument MAS5 [unknown-argument]\nhint: did you mean MASS?\n");
   EXPECT_THAT(refusal_of(*d, "SFORCE/7 FUNCTION"),
-              HasSubstr("FUNCTION of SFORCE/7 is expression, no number [expected-number]"));
-  EXPECT_THAT(refusal_of(*d, "JOINT/1 I"), HasSubstr("I of JOINT/1 is marker, no number"));
+              HasSubstr("FUNCTION of SFORCE/7 is no number (expression) [expected-number]"));
+  EXPECT_THAT(refusal_of(*d, "JOINT/1 I"), HasSubstr("I of JOINT/1 is no number (marker)"));
   EXPECT_THAT(refusal_of(*d, "BUSHING/3 K[4]"),
               HasSubstr("K of BUSHING/3 has 3 values, none is number 4 [wrong-count]"));
   EXPECT_THAT(refusal_of(*d, "BUSHING/3 C[4]"), HasSubstr("C of BUSHING/3 has 3 values, none is number 4"));
   EXPECT_THAT(refusal_of(*d, "PART/2 MASS[2]"), HasSubstr("MASS of PART/2 has 1 value, none is number 2"));
   EXPECT_THAT(render(parse_parameter("SPRINGDAMPR/1 K").error()),
               HasSubstr("names no parameter [no-parameter]\nhint: did you mean SPRINGDAMPER?"));
+}
+
+// Arguments of one kind of a statement are known to the others.
+TEST(Parameter, of_another_kind_of_the_statement_is_told_to_be_one) {
+  const auto d = dataset_of(oscillator);
+  EXPECT_EQ(refusal_of(*d, "SPRINGDAMPER/1 CT"),
+            "error: SPRINGDAMPER/1 has no argument CT [unknown-argument]\nhint: CT goes with ROTATIONAL\n");
+  EXPECT_EQ(refusal_of(*d, "SPRI/1 tor"),
+            "error: SPRINGDAMPER/1 has no argument TORQUE [unknown-argument]\nhint: TORQUE goes with ROTATIONAL\n");
+}
+
+// Axes that nothing turns have angles of zero; those that points give have none.
+TEST(Parameter, of_axes_that_are_not_stated_is_an_angle_of_zero) {
+  const auto d = dataset_of(
+      "x\nPART/1, GROUND\nMARKER/1\nMARKER/2, PART=1, ZP=1,0,0\nPART/2, MASS=1, CM=20, IP=1,1,1\nMARKER/20\n"
+      "POINT_MASS/3, MASS=1, CM=30, ZG=0,1,0, XG=1,0,0\nMARKER/30, POINT_MASS=3\nEND\n");
+  for (const char* name : {"MARKER/1 REULER[2]", "PART/2 REULER[3]", "MARKER/30 REULER[1]", "MARKER/1 QP[3]"})
+    EXPECT_EQ(value_of(*d, name), 0) << name;
+  EXPECT_EQ(refusal_of(*d, "MARKER/2 REULER[2]"),
+            "error: REULER of MARKER/2 is not stated [unstated-number]\nhint: ZP is, which stands instead of it\n");
+  EXPECT_THAT(refusal_of(*d, "POINT_MASS/3 REULER[2]"), HasSubstr("[unstated-number]"));
+  const auto turned = changed(d, {{named("MARKER/1 REULER[2]"), 0.5}, {named("PART/2 REULER[1]"), 0.25}});
+  auto model = build_model(turned, catalogue());
+  ASSERT_FALSE(model.diagnostics.has_errors()) << render(model.diagnostics);
+  const Model& m = *model.value;
+  EXPECT_NEAR(m.marker(*m.find_marker(1)).place.R_BM(2, 1), std::sin(0.5), 1e-15);
+  EXPECT_NEAR(m.body(*m.find_body("PART", 2)).pose.R(1, 0), std::sin(0.25), 1e-15);
+}
+
+// As any list of open length, that of one curve grows behind its last number.
+TEST(Parameter, behind_the_last_of_a_curve_makes_it_longer) {
+  const auto d = dataset_of(splines);
+  const auto longer = changed(d, {{named("SPLINE/1 X[5]"), 3},
+                                  {named("SPLINE/1 Y[5]"), 9},
+                                  {named("SPLINE/2 X[5]"), 3},
+                                  {named("SPLINE/2 Y[6]"), 9},
+                                  {named("SPLINE/2 Y[2][6]"), 12}});
+  EXPECT_EQ(value_of(*longer, "SPLINE/1 Y[5]"), 9);
+  EXPECT_EQ(value_of(*longer, "SPLINE/1 Y[4]"), 6);
+  EXPECT_EQ(value_of(*longer, "SPLINE/2 Y[6]"), 9);
+  EXPECT_EQ(value_of(*longer, "SPLINE/2 Y[2][6]"), 12);
+  EXPECT_EQ(value_of(*longer, "SPLINE/2 Y[2][5]"), 8);
+  for (const char* gap : {"SPLINE/1 Y[6]", "SPLINE/2 Y[3][1]", "SPLINE/2 Y[2][7]", "SPLINE/3 Y[2]"}) {
+    const std::array<ParameterChange, 1> change{{{named(gap), 1}}};
+    EXPECT_FALSE(with_parameters(d, change, catalogue())) << gap;
+  }
 }
 
 TEST(Parameter, replaced_changes_that_number_and_nothing_else) {

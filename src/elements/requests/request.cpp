@@ -16,6 +16,7 @@
 
 #include "elements/requests/lenient.h"
 #include "elements/requests/request_kernel.h"
+#include "model/missing_routine.h"
 #include "model/model.h"
 #include "model/schema.h"
 #include "routine/statement_words.h"
@@ -172,9 +173,8 @@ class RequestSet final : public TypedSet<RequestedValues> {
     const WrittenArgument* call = written_argument(reader, "FUNCTION");
     if (call && call->damaged) return false;  // what is wrong with it is said
     if (call)
-      return wrong(
-          reader, "it calls a compiled routine, and no library that has it is named",
-          "--user-library FILE.so names a library, --user-value X puts the constant X in the place of each call");
+      return wrong(reader, "it calls a compiled routine, and no library that has it is named",
+                   std::string(missing_routine::name_a_library_or_a_value));
     if (kinds.size() + any_function + !r.variables.empty() != 1)
       return wrong(reader, kinds.empty() && !any_function && r.variables.empty()
                                ? "it asks for nothing: neither markers nor functions nor VARIABLES"
