@@ -13,6 +13,7 @@
 #include "analysis/displace.h"
 #include "analysis/row_sizes.h"
 #include "analysis/row_violations.h"
+#include "analysis/stated_limit.h"
 #include "analysis/stated_shape.h"
 #include "expression/parametric_curve.h"
 #include "system/row_terms.h"
@@ -35,7 +36,7 @@ std::string_view stuck_axes(const System& system, const ConstraintRows& rows, st
   for (const auto& e : rows.row(k)) {
     if (std::abs(e.c.g) > cosine_left) return {};
   }
-  return ", whose axes are parallel and must be perpendicular,";
+  return ", two axes that are parallel and must be perpendicular,";
 }
 
 std::string undefined_value_text(const System& system, const OperatingPoint& op, std::int32_t row) {
@@ -127,8 +128,8 @@ class Assembly {
         op_(std::move(from)),
         first_memory_(op_.memory),
         drawn_shape_(op_.extra),
-        limits_{std::min(settings().rotation_limit.value_or(largest_turn), most_told),
-                settings().translation_limit.value_or(std::numeric_limits<double>::infinity())},
+        limits_{std::min(stated_limit(settings().rotation_limit, largest_turn), most_told),
+                stated_limit(settings().translation_limit, std::numeric_limits<double>::infinity())},
         most_(settings().iteration_limit.value_or(position_iterations)) {
     rows_.resize(layout_, layout_.row_count() + starts_.size());
   }

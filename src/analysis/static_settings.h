@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "analysis/stated_limit.h"
 #include "analysis/statics.h"
 #include "model/settings.h"
 
@@ -12,15 +13,12 @@ inline StaticsOptions statics_options(const EquilibriumSettings& s) {
   constexpr std::int64_t most_iterations = 1'000'000;
   StaticsOptions options;
   OriginalMethod original;
-  const auto limit = [](std::optional<double> stated, double& value) {
-    if (stated && *stated > 0) value = *stated;
-  };
   if (s.iteration_limit)
     options.iteration_limit = original.iteration_limit =
         static_cast<int>(std::min(*s.iteration_limit, most_iterations));
   for (StepLimits* limits : {&options.limits, &original.limits}) {
-    limit(s.rotation_limit, limits->rotation);
-    limit(s.translation_limit, limits->translation);
+    limits->rotation = stated_limit(s.rotation_limit, limits->rotation);
+    limits->translation = stated_limit(s.translation_limit, limits->translation);
   }
   original.tolerance.error = s.error.value_or(original.tolerance.error);
   original.tolerance.imbalance = s.imbalance.value_or(original.tolerance.imbalance);
@@ -37,7 +35,7 @@ inline StaticsOptions statics_options(const EquilibriumSettings& s) {
     motion.global_damping = s.global_damping.value_or(motion.global_damping);
     motion.acceleration_error = s.acceleration_error.value_or(motion.acceleration_error);
     motion.kinetic_energy_error = s.kinetic_energy_error.value_or(motion.kinetic_energy_error);
-    limit(s.settling_time, motion.longest_time);
+    motion.longest_time = stated_limit(s.settling_time, motion.longest_time);
     options.original.reset();
   }
   return options;

@@ -60,8 +60,8 @@ void stiction_cautions(const System& system, const OperatingPoint& op, const Lin
       const auto held = most_held(s, friction, linear, modes, *energies);
       std::string mode;
       if (held) {
-        mode = fmt::format(", most of all in mode {} of {:.5g} cycles per unit time", held->mode + 1,
-                           std::abs(modes.modes[held->mode].eigenvalue_hz));
+        mode = fmt::format(", most of all in mode {} of {:.5g} {}", held->mode + 1,
+                           std::abs(modes.modes[held->mode].eigenvalue_hz), system.model().units.frequency());
       }
       out.warning("joint-in-stiction", friction.at,
                   fmt::format("{} is in stiction: the stiffness of {} may be spurious, and with it modes{}", s.joint,

@@ -176,7 +176,10 @@ void Planner::open(const Opening& o) {
   }
   if (!o.echo.empty()) opening_.push_back(o.echo);
   // Beside the dataset that the command line names, else beside the command file.
-  const std::string beside = fs::path(o.path).replace_extension().string();
+  // One that comes through a device has no place of its own.
+  fs::path place(o.path);
+  if (place.parent_path() == "/dev" || place.parent_path() == "/dev/fd") place = place.filename();
+  const std::string beside = place.replace_extension().string();
   const bool on_command_line = o.at.source == nullptr;
   begin_job(on_command_line    ? beside
             : o.prefix.empty() ? fs::path(o.path).stem().string()

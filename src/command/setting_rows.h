@@ -27,6 +27,7 @@ struct SettingRow {
   std::string_view label, words;  // blanks between the words
   std::string_view unstated;  // what holds where it is not stated, unless other settings say more (SettingList::held)
   Shown shown = Shown::text;
+  bool is_limit = false;  // 0 is as if it were not stated (analysis/stated_limit.h)
 };
 inline constexpr std::string_view without_effect = "without effect";
 

@@ -79,6 +79,12 @@ std::string value_text(const WrittenArgument& w, Shown shown) {
   return number ? shown_number(*number, shown) : text;
 }
 
+bool is_zero(const WrittenArgument& w) {
+  Diagnostics unused;
+  const auto number = read_real(w, *w.name.source, unused);
+  return number && *number == 0;
+}
+
 }  // namespace
 
 std::string shown_number(double number, Shown shown) {
@@ -96,7 +102,7 @@ std::string settings_list(std::string_view command, const RunState& run) {
     std::string_view word;
     const WrittenArgument* w = stated.last(row.words, word);
     std::string value(row.unstated);
-    if (w && w->has_value) value = value_text(*w, row.shown);
+    if (w && w->has_value && !(row.is_limit && is_zero(*w))) value = value_text(*w, row.shown);
     if (w && !w->has_value) value = row.words == word ? "ON" : word;
     const auto in_force = list.held ? list.held(row.label, w != nullptr, run.settings) : std::nullopt;
     if (in_force) value = *in_force;

@@ -28,7 +28,7 @@ struct Kind {
     marker,     // owns a place in Model::markers
     element,    // anything with an id
     singleton,  // at most one, without id
-    inert,      // kept, without effect on a linear model
+    inert,      // kept, for the eye or as the shape of a contact
     setting,    // of analyses: without id, may be stated several times
   };
 
@@ -115,7 +115,7 @@ constexpr bool is_beside_model(const Kind& kind) {
 }
 
 // Whether a command NAME/id, ARG=… defines arguments of such a statement anew.
-constexpr bool can_be_redefined(const Kind& kind) { return !is_beside_model(kind) && !kind.holds_for_good; }
+constexpr bool can_be_redefined(const Kind& kind) { return kind.role != Kind::Role::setting && !kind.holds_for_good; }
 
 // Whether functions may ask for the force of an element.
 constexpr bool can_exert(const Kind& kind) { return !is_beside_model(kind) && kind.gives == Kind::Gives::forces; }

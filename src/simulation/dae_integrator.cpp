@@ -165,6 +165,8 @@ DaeIntegrator::Outcome DaeIntegrator::step(double latest) {
       return c.give_up("the equations are singular");
     case Went::between_zeros:
       return c.fail("a function that switches is zero at two instants that are hardly apart");
+    case Went::too_short:
+      return c.fail("the next time is too near for a step");
     case Went::not_converged:
       return c.fail("the iteration of a step does not converge however short it is");
   }

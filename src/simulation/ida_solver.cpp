@@ -221,7 +221,7 @@ IdaSolver::Went IdaSolver::step(double end, double latest, std::optional<double>
     case IDA_LSOLVE_FAIL:
       return Went::singular;
     case IDA_ILL_INPUT:
-      return Went::between_zeros;
+      return problem_.switch_count() > 0 ? Went::between_zeros : Went::too_short;
     default:
       return Went::not_converged;
   }

@@ -50,6 +50,7 @@ class IdaSolver {
     without_values,
     singular,
     between_zeros,  // a switch is zero at two instants that are hardly apart
+    too_short,      // the next time is too near for a step
     not_converged
   };
   // One step towards `latest`, which ends no later than at `end`; of a stated length if it is the first.

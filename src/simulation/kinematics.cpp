@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/contradiction.h"
+#include "analysis/stated_limit.h"
 #include "simulation/kinematic_equations.h"
 #include "simulation/motion_courses.h"
 #include "simulation/pose_interpolation.h"
@@ -32,14 +33,11 @@ Failure failure(double time, const std::string& message, std::string_view code, 
   return {"kinematic simulation", fmt::format("at time {:.9g}: {}", time, message), std::move(details), code};
 }
 
-// A limit of zero is none that was stated.
-double stated(const std::optional<double>& value, double otherwise) { return value && *value > 0 ? *value : otherwise; }
-
 KinematicEquations::Limits limits_of(const KinematicsSettings& settings, const OperatingPoint& from) {
   constexpr double rotation = 0.5235987755982988;
   constexpr std::int64_t iterations = 25, most_iterations = 1'000'000;
-  return {{stated(settings.rotation_limit, rotation),
-           stated(settings.translation_limit, std::numeric_limits<double>::infinity())},
+  return {{stated_limit(settings.rotation_limit, rotation),
+           stated_limit(settings.translation_limit, std::numeric_limits<double>::infinity())},
           static_cast<int>(std::min(settings.iteration_limit.value_or(iterations), most_iterations)),
           settings.error.value_or(from.redundancy_tolerance)};
 }
@@ -58,7 +56,7 @@ class KinematicRun {
         turning_(system),
         times_(course.times),
         limits_(limits_of(settings, from)),
-        largest_step_(stated(settings.largest_step, std::numeric_limits<double>::infinity())),
+        largest_step_(stated_limit(settings.largest_step, std::numeric_limits<double>::infinity())),
         at_(std::move(from)),
         statistics_(course.statistics),
         watch_(course.watch),

@@ -108,6 +108,12 @@ TEST_F(CommandTable, commands_act_or_are_named) {
       {"EQUILIBRIUM/ALIMIT=0.5D, ERROR=0.5, MAXIT=20, LIST",
        "Current EQUILIBRIUM settings are:\n   ALIMIT    = 0.008727 (rad)\n   ERROR     = 0.500000\n   IMBALANCE = "
        "0.000100\n   MAXIT     = 20\n"},
+      // A limit of zero is none.
+      {"EQUILIBRIUM/ALIMIT=0, TLIMIT=0, LIST", "settings are:\n   ALIMIT    = 0.174533 (rad)\n"},
+      {"EQUILIBRIUM/TLIMIT=0, LIST", "   TLIMIT    = none\n"},
+      {"IC/ALIMIT=0, TLIMIT=0, LIST", "settings are:\n   ALIMIT   = 0.500000 (rad)\n"},
+      {"IC/TLIMIT=0, LIST", "   TLIMIT   = none\n"},
+      {"KINEMATICS/ALIMIT=0, TLIMIT=0, LIST", "ALIMIT   = 0.523599 (rad)\n"},
       {"EQUILIBRIUM/STABILITY=1E-3, LIST",
        "   MAXIT     = 25\n   PATTERN   = TTTTTTTTTT\n   STABILITY = 0.001000\n   "
        "TLIMIT    = 20.000000\n   METHOD    = ORIGINAL\n"},

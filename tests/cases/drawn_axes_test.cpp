@@ -103,7 +103,7 @@ TEST_F(DrawnAxes, that_others_make_parallel_are_named_where_the_assembly_ends) {
           "MARKER/20\nJPRIM/1, PARALLEL_AXES, I=20, J=1\nJOINT/2, UNIVERSAL, I=20, J=1\nEND\n",
           "LINEAR/EIGENSOL\n");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("whose axes are parallel and must be perpendicular, cannot hold together"));
+  EXPECT_THAT(r.err, HasSubstr("two axes that are parallel and must be perpendicular, cannot hold together"));
 }
 
 // An equation that nothing moves is no matter of axes.

@@ -65,6 +65,23 @@ TEST_F(EditCommands, a_contact_changes_its_law) {
   expect_frequency(r, 4, 3);
 }
 
+// Twice as deep, twice as stiff.
+TEST_F(EditCommands, the_shape_of_a_contact_changes_its_size) {
+  const std::string ball =
+      "ball\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=2, CM=20, IP=1,1,1, QG=0,0,0.4\nMARKER/20\n"
+      "JOINT/1, TRANSLATIONAL, I=20, J=1\nGRAPHICS/1, PLANE, RM=1, XMIN=-1, XMAX=1, YMIN=-1, YMAX=1\nGRAPHICS/2, "
+      "ELLIPSOID, CM=20, XSCALE=1, YSCALE=1, ZSCALE=1\nCONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=250, EXPONENT=2, "
+      "DAMPING=0, DMAX=0.01\nEND\n";
+  const RunResult r = run(ball, "LINEAR/EIGENSOL\ngraph/2, xscale=1.2, ysc=1.2, zscale=1.2\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_frequency(r, 0, 5);
+  expect_frequency(r, 2, std::sqrt(50.0));
+  EXPECT_THAT(run(ball, "GRAPHICS/2, BOX\n").err, HasSubstr("GRAPHICS/2 is both ELLIPSOID and BOX"));
+  EXPECT_THAT(run(ball, "GRAPHICS/2, RADIUS=1\n").err,
+              HasSubstr("nothing here acts on GRAPHICS/RADIUS, which is passed over"));
+  EXPECT_THAT(run(ball, "GRAPHICS/3, XSCALE=2\n").err, HasSubstr("GRAPHICS/3 does not exist"));
+}
+
 TEST_F(EditCommands, deactivated_elements_exert_nothing_and_come_back) {
   const RunResult r = run(oscillator +
                               "BUSHING/7, I=20, J=1, K=0,0,10\nSFORCE/9, TRANSLATIONAL, ACTIONONLY, I=20, J=1, "

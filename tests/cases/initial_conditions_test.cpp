@@ -285,6 +285,17 @@ std::string door(const std::string& at, const std::string& more = "", double len
 }
 double door_frequency() { return std::sqrt(3 / 1.16) / (2 * std::numbers::pi); }
 
+TEST_F(InitialConditions, go_any_way_where_a_limit_is_zero) {
+  const std::string apart =
+      "Door\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1\nPART/2, MASS=1, CM=20, IP=1,1,1, QG=1.5,0,0, "
+      "REULER=0,40D,0\nMARKER/20\nMARKER/21, QP=-1,0,0\nJOINT/1, REVOLUTE, I=21, J=1\nSPRINGDAMPER/1, ROTATIONAL, "
+      "I=21, "
+      "J=1, KT=2\nEND\n";
+  const RunResult r = run(apart, "IC/ALIMIT=0, TLIMIT=0\nSIMULATE/INITIAL\nLINEAR/EIGENSOL\n");
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_eigenvalues(r.eigenvalues(2), {{0, 1 / (2 * std::numbers::pi)}}, 1e-12);  // 2 on an inertia of 1 + 1
+}
+
 TEST_F(InitialConditions, take_hinges_that_agree_to_the_error_of_ic) {
   struct Case {
     std::string model, commands;

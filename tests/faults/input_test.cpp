@@ -54,6 +54,15 @@ TEST_F(Inputs, commands_on_standard_input_are_checked_as_they_are_run) {
   EXPECT_THAT(wrong.err, HasSubstr("standard input:3:8: error:"));
 }
 
+// No file is written beside a device.
+TEST_F(Inputs, a_dataset_on_a_device_leaves_its_files_where_it_is_run) {
+  const Outcome r =
+      run({"run", "/dev/stdin", "-c", "LINEAR/EIGENSOL"}, {{}, [] { redirect(STDIN_FILENO, "model.adm", O_RDONLY); }});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("wrote stdin.msg\n"));
+  EXPECT_TRUE(fs::exists(folder_ / "stdin.msg"));
+}
+
 TEST_F(Inputs, a_value_for_routines_that_is_no_finite_number_is_wrong_usage) {
   for (const std::string value : {"nan", "inf", "-inf", "none"}) {
     const Outcome r = run({"run", "model.adm", "-c", "LINEAR/EIGENSOL", "--user-value", value});

@@ -42,6 +42,12 @@ TEST(Failures, steps_that_stay_shorter_than_is_allowed_end_the_run) {
   EXPECT_TRUE(led_through_time(fmt::format(fmt::runtime(spring), 1e-6), {3, 6}).ok());
 }
 
+TEST(Failures, a_time_to_go_that_no_step_is_short_enough_for_is_told) {
+  const Course c = led_through_time(slider + "END\n", {1e-300, 2});
+  ASSERT_FALSE(c.ok());
+  EXPECT_THAT(c.failure, HasSubstr("the next time is too near for a step"));
+}
+
 TEST(Failures, a_force_without_value_is_named_with_its_function) {
   const Course c =
       led_through_time(slider + "SFORCE/7, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=SQRT(1-TIME)\nEND\n", {3, 6});

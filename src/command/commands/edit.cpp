@@ -32,6 +32,7 @@ void tell_what_is_inactive(RunState& run) {
 
 StudyResult<void> Edit::run(RunState& run) const {
   tell_what_is_inactive(run);
+  run.remarks.pass_over(run.system().model().settings.passed_over);
   if (!tell(run)) run.json.add_plain(run.command, run.time());
   return {};
 }

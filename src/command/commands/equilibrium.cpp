@@ -12,13 +12,13 @@ namespace dynalin::commands {
 namespace {
 
 constexpr auto equilibrium_rows = std::to_array<SettingRow>({
-    {"ALIMIT", "ALIMIT", "0.174533 (rad)", Shown::angle},
+    {"ALIMIT", "ALIMIT", "0.174533 (rad)", Shown::angle, true},
     {"ERROR", "ERROR", "0.000100", Shown::number},
     {"IMBALANCE", "IMBALANCE", "0.000100", Shown::number},
     {"MAXIT", "MAXIT", "500"},
     {"PATTERN", "PATTERN", "none", Shown::pattern},
     {"STABILITY", "STABILITY", "none", Shown::number},
-    {"TLIMIT", "TLIMIT", "none", Shown::number},
+    {"TLIMIT", "TLIMIT", "none", Shown::number, true},
     {"METHOD", "METHOD", "ADVANCED"},
     {"ATOL", "ATOL", without_effect, Shown::number},
     {"RTOL", "RTOL", without_effect, Shown::number},

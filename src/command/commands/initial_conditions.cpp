@@ -17,11 +17,11 @@ class InitialConditions final : public SettingOf<WrittenInitialConditions> {
 };
 
 constexpr auto ic_rows = std::to_array<SettingRow>({
-    {"ALIMIT", "ALIMIT", "0.500000 (rad)", Shown::angle},
+    {"ALIMIT", "ALIMIT", "0.500000 (rad)", Shown::angle, true},
     {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
     {"MAXIT", "MAXIT", "50"},
     {"PATTERN", "PATTERN", without_effect, Shown::pattern},
-    {"TLIMIT", "TLIMIT", "none", Shown::exponent},
+    {"TLIMIT", "TLIMIT", "none", Shown::exponent, true},
     {"VERROR", "VERROR", "   1.000000e-08", Shown::exponent},
     {"AERROR", "AERROR", "   1.000000e-08", Shown::exponent},
     {"AMAXIT", "AMAXIT", "100"},

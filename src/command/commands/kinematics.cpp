@@ -12,11 +12,11 @@ class Kinematics final : public SettingOf<WrittenKinematics> {
 };
 
 constexpr auto kinematics_rows = std::to_array<SettingRow>({
-    {"ALIMIT", "ALIMIT", "0.523599 (rad)", Shown::angle},
+    {"ALIMIT", "ALIMIT", "0.523599 (rad)", Shown::angle, true},
     {"ERROR", "ERROR", "   1.000000e-10", Shown::exponent},
     {"MAXIT", "MAXIT", "25"},
     {"PATTERN", "PATTERN", without_effect, Shown::pattern},
-    {"TLIMIT", "TLIMIT", "none", Shown::number},
+    {"TLIMIT", "TLIMIT", "none", Shown::number, true},
     {"AERROR", "AERROR", without_effect, Shown::number},
     {"AMAXIT", "AMAXIT", without_effect},
     {"APATTERN", "APATTERN", without_effect, Shown::pattern},

@@ -53,7 +53,8 @@ void check_drawn_axes(const Model& model, const ElementLabel& label, MarkerId i,
     if (text.empty()) continue;
     text = fmt::format("{}: {}", label.full_text(), text);
     if (model.edited) {
-      diagnostics.warning("parallel-axes", label.at, std::move(text), "as the model stands now they may be so no more");
+      diagnostics.warning("parallel-axes", label.at, std::move(text),
+                          "that is the drawing; by now bodies may stand otherwise");
     } else {
       diagnostics.error("parallel-axes", label.at, std::move(text), std::string(hint));
     }

@@ -284,12 +284,14 @@ class GraphicsSet final : public ElementSet, public ShapeSource, public ContactS
 
 }  // namespace
 
-extern constinit const Kind graphics = {
+extern constinit const Kind graphics = Kind{
     "GRAPHICS",
     "",
     "A shape on a body, for the eye, for exports and for contacts.",
     Kind::Role::inert,
     argument_list,
-    [](const Kind& kind) -> std::unique_ptr<ElementSet> { return std::make_unique<GraphicsSet>(kind); }};
+    [](const Kind& kind) -> std::unique_ptr<ElementSet> {
+      return std::make_unique<GraphicsSet>(kind);
+    }}.with_example("GRAPHICS/4, RADIUS=0.25");
 
 }  // namespace dynalin

@@ -6,7 +6,7 @@ namespace dynalin {
 namespace {
 
 constexpr Kind inert(std::string_view statement, std::string_view summary) {
-  return kept_as_text(statement, summary, Kind::Role::inert);
+  return kept_as_text(statement, summary, Kind::Role::inert).for_good();
 }
 
 }  // namespace
