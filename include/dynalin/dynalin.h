@@ -7,6 +7,10 @@
 // Everything is constant once it is made; errors are thrown as dynalin::Error. This header is the one to include.
 #pragma once
 
+#ifdef _GLIBCXX_DEBUG
+#error "_GLIBCXX_DEBUG makes other vectors than those of the Dynalin library: compile what includes its headers without"
+#endif
+
 #include "dynalin/linear_model.h"
 #include "dynalin/model.h"
 #include "dynalin/nastran_deck.h"

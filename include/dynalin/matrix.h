@@ -4,10 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
-
-#ifdef _GLIBCXX_DEBUG
-#error "_GLIBCXX_DEBUG makes other vectors than those of the Dynalin library: compile what includes its headers without"
-#endif
+#include <complex>
 
 namespace dynalin {
 

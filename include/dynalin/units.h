@@ -18,6 +18,8 @@ struct Units {
   std::string time_symbol() const;
   // Of eigenvalues and frequencies everywhere: "cycles/s" and the like, "cycles/time" where it is not known.
   std::string frequency() const { return "cycles/" + time_symbol(); }
+
+  friend bool operator==(const Units&, const Units&) = default;
 };
 
 }  // namespace dynalin

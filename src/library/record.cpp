@@ -1,7 +1,6 @@
 #include "dynalin/record.h"
 
 #include <sstream>
-#include <tuple>
 
 #include "library/inside.h"
 #include "output/json.h"
@@ -10,19 +9,13 @@
 
 namespace dynalin::library {
 
-namespace {
-
-auto values_of(const Units& u) { return std::tie(u.ucf, u.length_in_metres, u.force, u.mass, u.length, u.time); }
-
-}  // namespace
-
 struct Record::Inside {
   JsonResults json;
   Units units;
   bool failed = false;
 
   void check_units(const OperatingPoint& point) const {
-    if (values_of(point.inside().point.system->model().units) != values_of(units))
+    if (point.inside().point.system->model().units != units)
       refuse("the result is in other units than the model of the record");
   }
   [[noreturn]] static void refuse(std::string why) { fail(Failure{"record", std::move(why), {}}); }

@@ -34,21 +34,16 @@ Simulation Study::simulate(const OperatingPoint& from, const SimulationRequest& 
     if (now.output) append(history, now.system, now.point);
     if (!request.watch) return GoOn::yes;
     // The watcher may keep what it was told for longer than the instant lasts.
-    struct Instant {
-      const SimulationStep* step;
-      const StudyPoint* start;
-    };
-    const auto instant = std::make_shared<std::optional<Instant>>(Instant{&now, &start});
-    const struct Over {
-      std::optional<Instant>& instant;
-      ~Over() { instant.reset(); }
-    } over{*instant};
-    const auto point = [instant] {
-      if (!*instant)
+    const auto over = std::make_shared<bool>(false);
+    const struct AtEnd {
+      bool& over;
+      ~AtEnd() { over = true; }
+    } at_end{*over};
+    const auto point = [over, &now, &start] {
+      if (*over)
         fail(Failure{"simulation", "the instant is over: its point is there during the call of watch alone", {}});
-      const SimulationStep& step = *(*instant)->step;
-      StudyPoint at = *(*instant)->start;
-      at.values = step.point, at.started = true, at.consistent = step.output;
+      StudyPoint at = start;
+      at.values = now.point, at.started = true, at.consistent = now.output;
       at.statics.reset();
       return OperatingPoint(std::make_shared<const OperatingPoint::Inside>(OperatingPoint::Inside{std::move(at), {}}));
     };

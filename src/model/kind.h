@@ -28,7 +28,7 @@ struct Kind {
     marker,     // owns a place in Model::markers
     element,    // anything with an id
     singleton,  // at most one, without id
-    inert,      // kept, for the eye or as the shape of a contact
+    inert,      // kept beside the model: shapes, which contacts may take, and what has no effect
     setting,    // of analyses: without id, may be stated several times
   };
 

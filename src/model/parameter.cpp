@@ -44,12 +44,12 @@ class Finder {
     std::vector<std::string_view> names;
     for (const ArgumentInfo& a : (*kind)->arguments) names.push_back(a.name);
     const auto k = find_keyword(p.argument, names);
-    if (!k || (*kind)->arguments[*k].elsewhere) {
-      if (k) {
-        const ArgumentInfo& of_another = (*kind)->arguments[*k];
-        return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), of_another.name),
-                       fmt::format("{} {}", of_another.name, of_another.help));
-      }
+    if (k && (*kind)->arguments[*k].elsewhere) {
+      const ArgumentInfo& of_another = (*kind)->arguments[*k];
+      return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), of_another.name),
+                     fmt::format("{} {}", of_another.name, of_another.help));
+    }
+    if (!k) {
       const std::string_view near = nearest_word(p.argument, names);
       return refusal("unknown-argument", fmt::format("{} has no argument {}", name_of(p.element), p.argument),
                      near.empty() ? fmt::format("its arguments are {}", fmt::join(names, ", "))

@@ -168,6 +168,7 @@ class Perturber {
     return tl::unexpected(Failure{"linear analysis", std::move(message), {}, "undefined-value"});
   }
 
+  // Of all that results are made of.
   EquationsMark mark_of(const PerturbationEquations& p) const {
     WordHash hash;
     const auto add = [&](std::int32_t r, std::int32_t c, double v) {

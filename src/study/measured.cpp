@@ -18,7 +18,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-StudyFailure failure(std::string why) { return StudyFailure({"measuring", std::move(why), {}}); }
+StudyFailure failure(std::string why) { return StudyFailure({"measuring", std::move(why), {}, "unexpected-text"}); }
 
 // A VARIABLE for each function, of which neither the model nor the functions know.
 class Measuring {

@@ -47,6 +47,8 @@ TEST(LibraryPoints, measures_functions_at_a_point) {
   EXPECT_THAT(unknown.what(), HasSubstr("MARKER/77"));
   EXPECT_THAT(error_of(measure("1, IC=5")).what(), HasSubstr("'1, IC=5' is not one function"));
   EXPECT_THAT(error_of(measure("1\nPART/9")).what(), HasSubstr("several lines"));
+  for (const char* text : {"1, IC=5", "1\nPART/9"})
+    EXPECT_EQ(error_of(measure(text)).problems.at(0).code, "unexpected-text") << text;
   EXPECT_THROW(measure("SIN(")(), Error);
   EXPECT_THROW(measure("")(), Error);
   EXPECT_THROW(study_of(resting).measured(point, {"TIME"}), Error);
